@@ -1,0 +1,7 @@
+"""`python -m rvsim`."""
+
+import sys
+
+from rvsim.cli import main
+
+sys.exit(main())

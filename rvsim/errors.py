@@ -1,0 +1,114 @@
+"""The exceptions of rvsim. Each takes data and writes its own message: the culprit, the rule, what would have worked.
+
+    RvsimError
+    ├── ShapeError             an array has the wrong shape for this arm
+    ├── RobotDefinitionError   values that make no arm (no joint, a lower limit above the upper one)
+    ├── UnknownRobotError      a name that is no built-in arm and no file
+    ├── RobotFileError         a robot file that cannot be read, with its path, table and key
+    ├── UnknownNameError       a name outside a closed list (a path, a tool, an orientation)
+    ├── PathFileError          a file of points that cannot be read, with its row and column
+    ├── ExpressionError        a typed value that is no number
+    ├── NoClosedFormError      an arm whose inverse kinematics has no closed form here
+    └── NoMassDataError        dynamics asked of an arm without masses
+
+Ordinary outcomes ("out of reach") are values, never exceptions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from difflib import get_close_matches
+
+
+def did_you_mean(found: str, known: Sequence[str]) -> str:
+    """The sentence that offers what would have worked: the nearest of the known names, and all of them."""
+    near = get_close_matches(found.lower(), [name.lower() for name in known], n=1)
+    originals = {name.lower(): name for name in known}
+    guess = f"Did you mean {originals[near[0]]!r}? " if near else ""
+    return f"{guess}Known: {', '.join(known)}."
+
+
+class RvsimError(Exception):
+    """The root of every exception that rvsim raises on purpose."""
+
+
+class ShapeError(RvsimError, ValueError):
+    """An array has the wrong shape for this arm."""
+
+    def __init__(self, name: str, expected: str, found: tuple[int, ...]) -> None:
+        self.name, self.expected, self.found = name, expected, found
+        super().__init__(f"{name} must have the shape {expected}, but has {found}.")
+
+
+class RobotDefinitionError(RvsimError, ValueError):
+    """Values that make no arm."""
+
+    def __init__(self, robot: str, what: str) -> None:
+        self.robot, self.what = robot, what
+        super().__init__(f"Robot {robot!r}: {what}")
+
+
+class UnknownRobotError(RvsimError, LookupError):
+    """A name that is neither a built-in arm nor a file."""
+
+    def __init__(self, name: str, known: Sequence[str]) -> None:
+        self.name, self.known = name, tuple(known)
+        super().__init__(f"No robot {name!r}, and no such file. {did_you_mean(name, known)}")
+
+
+class RobotFileError(RvsimError, ValueError):
+    """A robot file that cannot be read or makes no arm.
+
+    Args:
+        path: the file.
+        where: table and key, for instance "joint 3, key 'alpha'".
+        found: what stands there.
+        expected: what should stand there.
+        suggestion: what would work, a sentence (may be empty).
+    """
+
+    def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
+        self.path, self.where, self.suggestion = str(path), where, suggestion
+        self.found, self.expected = found, expected
+        message = f"{path}: {where}: found {found}, expected {expected}."
+        super().__init__(f"{message} {suggestion}".rstrip())
+
+
+class UnknownNameError(RvsimError, LookupError):
+    """A name outside a closed list."""
+
+    def __init__(self, kind: str, name: str, known: Sequence[str]) -> None:
+        self.kind, self.name, self.known = kind, name, tuple(known)
+        super().__init__(f"No {kind} {name!r}. {did_you_mean(name, known)}")
+
+
+class PathFileError(RvsimError, ValueError):
+    """A file of points that cannot be read."""
+
+    def __init__(self, path: object, where: str, found: str, expected: str) -> None:
+        self.path, self.where, self.found, self.expected = str(path), where, found, expected
+        super().__init__(f"{path}: {where}: found {found}, expected {expected}.")
+
+
+class ExpressionError(RvsimError, ValueError):
+    """A typed value that is no number."""
+
+    def __init__(self, text: str, reason: str) -> None:
+        self.text, self.reason = text, reason
+        super().__init__(f"“{text}” is no number: {reason}. Type a number or an expression like pi/4, sqrt(2)/2.")
+
+
+class NoClosedFormError(RvsimError):
+    """An arm whose inverse kinematics has no closed form here."""
+
+    def __init__(self, robot: str, why: str) -> None:
+        self.robot, self.why = robot, why
+        super().__init__(f"{robot} has no closed form for its inverse kinematics: {why}")
+
+
+class NoMassDataError(RvsimError):
+    """Dynamics asked of an arm without masses."""
+
+    def __init__(self, robot: str) -> None:
+        self.robot = robot
+        super().__init__(f"{robot} has no mass data: add a mass and a centre of mass for each link to its robot file.")

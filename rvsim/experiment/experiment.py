@@ -1,0 +1,113 @@
+"""The value `Experiment`: all that a student has set up for one arm. Edits are functions from one state to the next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray, frozen_array
+
+PathOrientation = Literal["down", "free", "keep", "source"]
+
+
+class NamedPose(NamedTuple):
+    """A joint pose worth remembering: q (n,) [rad, m]."""
+
+    name: str
+    q: FloatArray
+
+
+class LimitViolation(NamedTuple):
+    """One joint outside its limits: the joint's index, its value and the limit it passes [rad, m]."""
+
+    joint: int
+    value: float
+    limit: float
+
+
+@dataclass(frozen=True, eq=False)
+class LineTask:
+    """The line to track: `start` and `end` (3,) [m], the step as a fraction of the line (source 000's "resolution")."""
+
+    start: FloatArray
+    end: FloatArray
+    resolution: float = 0.1
+    orientation: PathOrientation = "down"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "start", frozen_array("line start", self.start, (3,)))
+        object.__setattr__(self, "end", frozen_array("line end", self.end, (3,)))
+
+    @property
+    def samples(self) -> int:
+        """The number of points: as in source 000's Program 7, `0 : resolution : 1`."""
+        return int(np.floor(1.0 / self.resolution + 1e-9)) + 1
+
+
+@dataclass(frozen=True, eq=False)
+class TrajectoryTask:
+    """The named path to track, for instance "letter-board", and the tool's orientation along it."""
+
+    name: str = "letter-board"
+    orientation: PathOrientation = "source"
+    height: float = 0.3  # [m], for the paths whose source gives no height
+
+
+@dataclass(frozen=True, eq=False)
+class Experiment:
+    """One arm, its present pose q (n,) [rad, m], and what is to be done with it."""
+
+    robot: Robot
+    q: FloatArray
+    line: LineTask
+    trajectory: TrajectoryTask = field(default_factory=TrajectoryTask)
+    ignore_limits: bool = False
+    poses: tuple[NamedPose, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "q", frozen_array("q", self.q, (self.robot.dof,)))
+
+    def at(self, q: ArrayLike) -> Experiment:
+        """In another pose. The pose is taken as it is: ask `limit_violations` first."""
+        return replace(self, q=np.asarray(q, dtype=np.float64))
+
+    def with_robot(self, robot: Robot) -> Experiment:
+        """With an edited arm of the same joints; the pose stays."""
+        return replace(self, robot=robot)
+
+    def with_pose(self, name: str) -> Experiment:
+        """The present pose remembered under a name; an older pose of that name is replaced."""
+        others = tuple(pose for pose in self.poses if pose.name != name)
+        return replace(self, poses=(*others, NamedPose(name, self.q)))
+
+    def without_pose(self, name: str) -> Experiment:
+        """That name forgotten."""
+        return replace(self, poses=tuple(pose for pose in self.poses if pose.name != name))
+
+
+def limit_violations(robot: Robot, q: ArrayLike, tolerance: float = 1e-9) -> tuple[LimitViolation, ...]:
+    """The joints of q (n,) that lie outside their limits, first joint first."""
+    values: NDArray[np.float64] = np.asarray(q, dtype=np.float64)
+    found = []
+    for index, (value, (lower, upper)) in enumerate(zip(values, robot.limits, strict=True)):
+        if value < lower - tolerance:
+            found.append(LimitViolation(index, float(value), float(lower)))
+        elif value > upper + tolerance:
+            found.append(LimitViolation(index, float(value), float(upper)))
+    return tuple(found)
+
+
+def random_pose(robot: Robot, seed: int) -> FloatArray:
+    """A pose (n,) drawn evenly from the limits.
+
+    A joint without limits turns within ±π or slides within the arm's size.
+    """
+    generator = np.random.default_rng(seed)
+    spans = np.where(robot.is_revolute, np.pi, robot.size)
+    lower = np.where(np.isfinite(robot.limits[:, 0]), robot.limits[:, 0], -spans)
+    upper = np.where(np.isfinite(robot.limits[:, 1]), robot.limits[:, 1], spans)
+    return np.asarray(generator.uniform(lower, upper))

@@ -1,0 +1,1 @@
+"""The screen. Only this floor imports PySide6 and pyqtgraph."""

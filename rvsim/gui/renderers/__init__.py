@@ -1,0 +1,1 @@
+"""The two ways to draw a scene: OpenGL through pyqtgraph, and QPainter."""

@@ -1,0 +1,1 @@
+"""Where the arm is: forward kinematics, Jacobian, inverse kinematics."""

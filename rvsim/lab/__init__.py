@@ -1,0 +1,1 @@
+"""What both the window and the command line offer: the experiments of the sources."""

@@ -1,0 +1,1 @@
+"""Where the arm goes and when: path (geometry), tracking (path to joints), time law and trajectory."""

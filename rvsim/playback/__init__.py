@@ -1,0 +1,1 @@
+"""Which moment is shown: the player."""

@@ -1,0 +1,18 @@
+"""What an arm is: DH rows, joints, limits, tools, shapes, masses. Values only; no disk, no units, no algorithms."""
+
+from rvsim.robot.robot import Convention, Datum, Gripper, Joint, JointType, LinkMass, Robot, Tool
+from rvsim.robot.shape import BoxShape, CapsuleShape, Shape
+
+__all__ = [
+    "BoxShape",
+    "CapsuleShape",
+    "Convention",
+    "Datum",
+    "Gripper",
+    "Joint",
+    "JointType",
+    "LinkMass",
+    "Robot",
+    "Shape",
+    "Tool",
+]

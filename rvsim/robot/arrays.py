@@ -1,0 +1,24 @@
+"""Read-only copies: the arrays inside a frozen value must not change behind its back."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rvsim.errors import ShapeError
+
+FloatArray = NDArray[np.float64]
+
+
+def frozen_array(name: str, values: ArrayLike, shape: tuple[int, ...]) -> FloatArray:
+    """A read-only float copy of `values`; −1 in `shape` matches any length.
+
+    Raises:
+        ShapeError: the values have another shape.
+    """
+    array = np.array(values, dtype=np.float64)
+    matches = array.ndim == len(shape) and all(want in (-1, got) for want, got in zip(shape, array.shape, strict=True))
+    if not matches:
+        raise ShapeError(name, str(shape).replace("-1", "any"), array.shape)
+    array.setflags(write=False)
+    return array
