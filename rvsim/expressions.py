@@ -8,7 +8,7 @@ import re
 from rvsim.errors import ExpressionError
 
 _NAMES = {"pi": math.pi, "π": math.pi, "e": math.e, "tau": math.tau}
-_FUNCTION_NAMES = "sqrt sin cos tan asin acos atan atan2 exp log radians degrees fabs".split()
+_FUNCTION_NAMES = ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "radians", "degrees")
 _FUNCTIONS = {name: getattr(math, name) for name in _FUNCTION_NAMES}
 _LONGEST = 200
 # The comma is a decimal separator when it stands between digits outside a function's arguments.

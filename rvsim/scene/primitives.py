@@ -120,7 +120,7 @@ Item = Polyline | Segments | Dots | Capsule | Box | Triads | Labels
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Items in drawing order for equal depth, the background, and the box (2, 3) [m] that holds what should be in view."""
+    """Items in drawing order for equal depth, the background, and the box (2, 3) [m] that should be in view."""
 
     items: tuple[Item, ...]
     background: Color
