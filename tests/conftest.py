@@ -1,0 +1,31 @@
+"""What every test shares: deterministic hypothesis, one OpenGL context family, settings that never touch the user's."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+settings.register_profile("rvsim", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("rvsim")
+# Where nothing else is said, widgets are tested without a screen.
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+
+@pytest.fixture(scope="session")
+def qapp_args() -> list[str]:
+    # Contexts must share before the application exists, or a second OpenGL view stays blank (also in the app itself).
+    from PySide6.QtCore import QCoreApplication, Qt
+
+    QCoreApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
+    return ["rvsim-tests"]
+
+
+@pytest.fixture(autouse=True)
+def _own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Settings, logs and robot files go to a folder of this test, never to the user's."""
+    monkeypatch.setenv("RVSIM_USER_FOLDER", str(tmp_path / "rvsim-user"))
+    yield
