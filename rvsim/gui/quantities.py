@@ -1,0 +1,66 @@
+"""Numbers as the screen shows them: unit, factor and decimals of each kind of quantity, the typographic minus."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal, NamedTuple
+
+from rvsim.gui.preferences import Preferences
+from rvsim.robot import Robot
+
+Kind = Literal["angle", "length", "unit_length", "number"]
+
+
+class Display(NamedTuple):
+    """How a kind of quantity is shown: factor · SI value, with a suffix, decimals and the step of one arrow key."""
+
+    factor: float
+    suffix: str
+    decimals: int
+    step: float
+
+
+_DISPLAYS: dict[tuple[str, str], Display] = {
+    ("angle", "deg"): Display(180.0 / math.pi, "°", 1, 1.0),
+    ("angle", "rad"): Display(1.0, " rad", 3, 0.01),
+    ("length", "mm"): Display(1e3, " mm", 1, 1.0),
+    ("length", "m"): Display(1.0, " m", 4, 0.001),
+    ("unit_length", ""): Display(1.0, " unit", 3, 0.01),
+    ("number", ""): Display(1.0, "", 4, 0.01),
+}
+
+
+def display(kind: Kind, preferences: Preferences) -> Display:
+    """How that kind is shown under the present preferences."""
+    units = {"angle": preferences["angle_unit"], "length": preferences["length_unit"]}
+    shown = _DISPLAYS[kind, units.get(kind, "")]
+    return shown._replace(decimals=shown.decimals + preferences["extra_decimals"])
+
+
+def length_kind(robot: Robot) -> Kind:
+    """Lengths of an arm whose source gives none a unit are shown in "unit"."""
+    return "length" if robot.length_unit == "millimetre" else "unit_length"
+
+
+def joint_kind(robot: Robot, joint: int) -> Kind:
+    """Whether that joint's value is an angle or a length."""
+    return "angle" if robot.joints[joint].revolute else length_kind(robot)
+
+
+def format_number(value: float, decimals: int) -> str:
+    """Fixed decimals, U+2212 for minus, and never −0.0."""
+    text = f"{value:.{decimals}f}"
+    if float(text) == 0.0:
+        text = text.lstrip("-")
+    return text.replace("-", "\u2212")
+
+
+def format_quantity(value: float, kind: Kind, preferences: Preferences) -> str:
+    """An SI value with its unit, as the screen shows it."""
+    shown = display(kind, preferences)
+    return format_number(value * shown.factor, shown.decimals) + shown.suffix
+
+
+def format_scientific(value: float, digits: int = 1) -> str:
+    """Errors and residuals: always scientific, never rounded to 0."""
+    return f"{value:.{digits}e}".replace("-", "\u2212")

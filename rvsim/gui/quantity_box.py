@@ -1,0 +1,193 @@
+"""A spin box for one quantity: SI inside, the user's unit outside, expressions taken, nothing clamped in silence."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QValidator, QWheelEvent
+from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QWidget
+
+from rvsim.errors import ExpressionError
+from rvsim.expressions import evaluate
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import Kind, display, format_number
+
+_KEPT_DECIMALS = 12  # the spin box rounds to these; the text shows far fewer
+_STEPS = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1, Qt.Key.Key_PageUp: 10, Qt.Key.Key_PageDown: -10}
+
+
+class QuantityBox(QDoubleSpinBox):
+    """Shows and edits one SI value.
+
+    `quantity_changed(float)` tells a new SI value that the user (or `setValue`) gave; `set_quantity` is silent.
+    `refused(str)` tells in a sentence why a typed value was not taken.
+    """
+
+    quantity_changed = Signal(float)
+    refused = Signal(str)
+
+    def __init__(self, kind: Kind, preferences: Preferences, title: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._kind, self._preferences, self._title = kind, preferences, title
+        self._quantity, self._lower, self._upper = 0.0, -math.inf, math.inf
+        self._limits_hint = ""
+        self.setKeyboardTracking(False)
+        self.setAccessibleName(title)
+        self.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self.setCorrectionMode(QAbstractSpinBox.CorrectionMode.CorrectToPreviousValue)
+        self.setDecimals(_KEPT_DECIMALS)
+        self._show()
+        self.valueChanged.connect(self._take)
+        preferences.changed.connect(self._on_preference)
+
+    # --- SI side ---------------------------------------------------------------------------------------------------
+
+    @property
+    def quantity(self) -> float:
+        """The SI value, exactly as it was set."""
+        return self._quantity
+
+    def set_quantity(self, quantity: float) -> None:
+        """Show an SI value, without telling anybody."""
+        if quantity == self._quantity:
+            return
+        self._quantity = quantity
+        self._show()
+
+    def set_range(self, lower: float, upper: float, hint: str = "") -> None:
+        """Take only SI values from lower to upper; `hint` says what to do about a refused one."""
+        self._lower, self._upper, self._limits_hint = lower, upper, hint
+        self._show()
+
+    def set_kind(self, kind: Kind) -> None:
+        """Show another kind of quantity."""
+        self._kind = kind
+        self._show()
+
+    def _show(self) -> None:
+        shown = display(self._kind, self._preferences)
+        blocked = self.blockSignals(True)
+        # A pose reached while limits were ignored may lie outside them: it is shown as it is.
+        lower, upper = min(self._lower, self._quantity), max(self._upper, self._quantity)
+        self.setRange(max(lower * shown.factor, -1e9), min(upper * shown.factor, 1e9))
+        self.setSuffix(shown.suffix)
+        self.setSingleStep(shown.step)
+        super().setValue(self._quantity * shown.factor)
+        self.lineEdit().setText(self.textFromValue(self.value()) + self.suffix())
+        self.setToolTip(f"{self._title}: {self._quantity * shown.factor:.12g}{shown.suffix}")
+        self.blockSignals(blocked)
+
+    def _take(self, value: float) -> None:
+        self._quantity = value / display(self._kind, self._preferences).factor
+        self._show()
+        self.quantity_changed.emit(self._quantity)
+
+    def _on_preference(self, name: str) -> None:
+        if name in ("angle_unit", "length_unit", "extra_decimals"):
+            self._show()
+
+    # --- what is typed ---------------------------------------------------------------------------------------------
+
+    def setValue(self, value: float) -> None:
+        """Take a value in the shown unit, as if it had been typed: outside the limits it is refused, not clamped."""
+        problem = self._problem(value)
+        if problem:
+            self.refused.emit(problem)
+            return
+        super().setValue(value)
+
+    def textFromValue(self, value: float) -> str:
+        """The shown text, without the unit."""
+        return format_number(value, display(self._kind, self._preferences).decimals)
+
+    def valueFromText(self, text: str) -> float:
+        """The value of a typed text; the text that is merely shown keeps the exact value behind it."""
+        bare = self._bare(text)
+        if bare == self.textFromValue(self.value()):
+            return self.value()
+        try:
+            return evaluate(bare)
+        except ExpressionError:
+            return self.value()
+
+    def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
+        """Anything may be typed; only a number within the limits is taken."""
+        bare = self._bare(text)
+        try:
+            acceptable = bare == self.textFromValue(self.value()) or not self._problem(evaluate(bare))
+        except ExpressionError:
+            acceptable = False
+        state = QValidator.State.Acceptable if acceptable else QValidator.State.Intermediate
+        return state, text, position
+
+    def fixup(self, text: str) -> str:
+        """Asked for when what stands there cannot be taken: say why, and go back to the last value."""
+        bare = self._bare(text)
+        try:
+            self.refused.emit(self._problem(evaluate(bare)) or "")
+        except ExpressionError as problem:
+            self.refused.emit(f"{self._title}: {problem}")
+        return self.textFromValue(self.value())
+
+    def _bare(self, text: str) -> str:
+        for mark in (self.suffix(), self.suffix().strip()):
+            if mark and text.endswith(mark):
+                text = text[: -len(mark)]
+        return text.strip()
+
+    def _problem(self, value: float) -> str:
+        """Why a value in the shown unit cannot be taken, or nothing."""
+        shown = display(self._kind, self._preferences)
+        lower, upper = self._lower * shown.factor, self._upper * shown.factor
+        if not math.isfinite(value) or abs(value) > 1e9:
+            return f"{self._title}: {value:g} is too large for an arm."
+        if lower - 1e-9 <= value <= upper + 1e-9:
+            return ""
+        texts = [format_number(number, shown.decimals) + shown.suffix for number in (value, lower, upper)]
+        if math.isinf(self._upper):
+            return f"{self._title}: {texts[0]} is below {texts[1]}. {self._limits_hint}".rstrip()
+        if math.isinf(self._lower):
+            return f"{self._title}: {texts[0]} is above {texts[2]}. {self._limits_hint}".rstrip()
+        return f"{self._title}: {texts[0]} lies outside {texts[1]} … {texts[2]}. {self._limits_hint}".rstrip()
+
+    # --- keys and wheel --------------------------------------------------------------------------------------------
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Arrows step 1, with Shift 10, with Ctrl 0.1; Escape gives back the last value."""
+        if event.key() == Qt.Key.Key_Escape and self.lineEdit().isModified():
+            self._show()
+            self.selectAll()
+            return
+        steps = _STEPS.get(Qt.Key(event.key())) if event.key() in _STEPS else None
+        if steps is None:
+            super().keyPressEvent(event)
+        else:
+            self._step(steps, event.modifiers())
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """One notch is one step."""
+        notches = event.angleDelta().y() / 120.0
+        if notches and not self.isReadOnly():
+            self._step(notches, event.modifiers())
+            event.accept()
+
+    def _step(self, steps: float, modifiers: Qt.KeyboardModifier) -> None:
+        self.interpretText()
+        scale = 10.0 if modifiers & Qt.KeyboardModifier.ShiftModifier else 1.0
+        scale = 0.1 if modifiers & Qt.KeyboardModifier.ControlModifier else scale
+        shown = display(self._kind, self._preferences)
+        wanted = self.value() + steps * scale * shown.step
+        # Stepping against a stop ends at the stop: it is written beside the slider.
+        super().setValue(min(max(wanted, self._lower * shown.factor), self._upper * shown.factor))
+        self.selectAll()
+
+    def stepBy(self, steps: int) -> None:
+        """The little arrows of the box."""
+        self._step(steps, Qt.KeyboardModifier.NoModifier)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Keep the digits when the style changes."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self._show()
