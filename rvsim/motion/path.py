@@ -1,0 +1,113 @@
+"""Where the tool goes: the value `Path`, points and orientations without time, and the ways to make one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rvsim.errors import ShapeError
+from rvsim.robot.arrays import FloatArray, frozen_array
+
+# The tool's z axis points straight down, its x axis along the base's x axis (source 000 tracks with this rotation).
+TOOL_DOWN = frozen_array("tool down", np.diag([1.0, -1.0, -1.0]), (3, 3))
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """A sequence of places for the tool.
+
+    Args:
+        name: the stable id, for instance "line".
+        points: (m, 3) base axes [m], at least one.
+        rotations: (m, 3, 3) base → tool, or None where the orientation is free.
+        title: what people call it.
+        notes: where it comes from and what is worth knowing.
+
+    Raises:
+        ShapeError: points and rotations do not fit together.
+    """
+
+    name: str
+    points: FloatArray
+    rotations: FloatArray | None = None
+    title: str = ""
+    notes: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", frozen_array("path points", self.points, (-1, 3)))
+        if not self.samples:
+            raise ShapeError("path points", "(at least 1, 3)", self.points.shape)
+        if self.rotations is not None:
+            rotations = frozen_array("path rotations", self.rotations, (self.samples, 3, 3))
+            object.__setattr__(self, "rotations", rotations)
+
+    @property
+    def samples(self) -> int:
+        """The number of points, m."""
+        return len(self.points)
+
+    @cached_property
+    def length(self) -> float:
+        """The length of the polyline through the points [m]."""
+        return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
+
+    def poses(self) -> FloatArray:
+        """(m, 4, 4) base → tool; the identity orientation where it is free."""
+        T = np.tile(np.eye(4), (self.samples, 1, 1))
+        T[:, :3, 3] = self.points
+        if self.rotations is not None:
+            T[:, :3, :3] = self.rotations
+        return T
+
+    def with_rotation(self, rotation: ArrayLike | None) -> Path:
+        """The same places with one orientation (3, 3) for all, one each (m, 3, 3), or None for a free one."""
+        return replace(self, rotations=_each(rotation, self.samples))
+
+    def moved(self, shift: ArrayLike) -> Path:
+        """Shifted by (3,) [m]."""
+        return replace(self, points=self.points + np.asarray(shift, dtype=np.float64))
+
+
+def through_points(points: ArrayLike, rotation: ArrayLike | None = None, *, name: str = "points") -> Path:
+    """The path through points (m, 3) with one orientation (3, 3), one each (m, 3, 3), or a free one (None)."""
+    places = frozen_array("path points", points, (-1, 3))
+    return Path(name, places, _each(rotation, len(places)), title="Points")
+
+
+def line_path(start: ArrayLike, end: ArrayLike, samples: int, rotation: ArrayLike | None = TOOL_DOWN) -> Path:
+    """The straight line from `start` (3,) to `end` (3,), both ends included.
+
+    Args:
+        samples: the number of points, at least 2.
+        rotation: (3, 3) for all points, (m, 3, 3), or None where the orientation is free.
+    """
+    first, last = frozen_array("line start", start, (3,)), frozen_array("line end", end, (3,))
+    t = np.linspace(0.0, 1.0, max(samples, 2))[:, None]
+    return Path("line", (1.0 - t) * first + t * last, _each(rotation, len(t)), title="Line")
+
+
+def radial_rotations(points: ArrayLike) -> FloatArray:
+    """(m, 3, 3): at each point the tool's z axis points level and straight away from the base axis, its y axis up."""
+    places = frozen_array("path points", points, (-1, 3))
+    azimuth = np.arctan2(places[:, 1], places[:, 0])
+    rotations = np.zeros((len(places), 3, 3))
+    rotations[:, 0, 2] = rotations[:, 1, 0] = np.cos(azimuth)
+    rotations[:, 1, 2], rotations[:, 0, 0] = np.sin(azimuth), -np.sin(azimuth)
+    rotations[:, 2, 1] = 1.0
+    return rotations
+
+
+def nearest_rotation(matrix: ArrayLike) -> FloatArray:
+    """The rotation (3, 3) nearest to a matrix in the Frobenius norm (Higham, Functions of Matrices, §8.1)."""
+    u, _, vt = np.linalg.svd(frozen_array("rotation", matrix, (3, 3)))
+    sign = np.sign(np.linalg.det(u @ vt))
+    return np.asarray(u @ np.diag([1.0, 1.0, sign]) @ vt)
+
+
+def _each(rotation: ArrayLike | None, samples: int) -> FloatArray | None:
+    if rotation is None:
+        return None
+    return np.broadcast_to(np.asarray(rotation, dtype=np.float64), (samples, 3, 3))

@@ -1,0 +1,58 @@
+"""The cubic spline through points, as MATLAB's `spline` makes it: the source's letter is drawn with it.
+
+A spline of a dozen knots is a small linear system; solving it here spares every start half a second of imports.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rvsim.errors import ShapeError
+from rvsim.robot.arrays import FloatArray, frozen_array
+
+
+def spline_points(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> FloatArray:
+    """The not-a-knot cubic spline through values (k, d) at increasing knots (k,), evaluated at (m,): (m, d).
+
+    The third derivative is continuous across the second and the last but one knot (de Boor, A Practical Guide to
+    Splines, ch. IV). Outside the knots the end pieces go on.
+
+    Raises:
+        ShapeError: fewer than four knots, or knots and values do not fit together.
+    """
+    x = frozen_array("spline knots", knots, (-1,))
+    if len(x) < 4:
+        raise ShapeError("spline knots", "(at least 4,)", x.shape)
+    y = frozen_array("spline values", values, (len(x), -1))
+    slopes = _slopes(x, y)
+    t = frozen_array("spline parameters", at, (-1,))
+    piece = np.clip(np.searchsorted(x, t, side="right") - 1, 0, len(x) - 2)
+    return _hermite(x, y, slopes, piece, t)
+
+
+def _slopes(x: FloatArray, y: FloatArray) -> FloatArray:
+    """(k, d) first derivatives at the knots that make the second derivative continuous."""
+    h = np.diff(x)
+    rise = np.diff(y, axis=0) / h[:, None]
+    matrix, right = np.zeros((len(x), len(x))), np.zeros_like(y)
+    inner = np.arange(1, len(x) - 1)
+    matrix[inner, inner - 1], matrix[inner, inner + 1] = h[1:], h[:-1]
+    matrix[inner, inner] = 2.0 * (h[:-1] + h[1:])
+    right[inner] = 3.0 * (h[1:, None] * rise[:-1] + h[:-1, None] * rise[1:])
+    matrix[0, :2], right[0] = _not_a_knot(h[0], h[1], rise[0], rise[1])
+    matrix[-1, :-3:-1], right[-1] = _not_a_knot(h[-1], h[-2], rise[-1], rise[-2])
+    return np.asarray(np.linalg.solve(matrix, right))
+
+
+def _not_a_knot(h0: float, h1: float, rise0: FloatArray, rise1: FloatArray) -> tuple[list[float], FloatArray]:
+    """The row of an end knot: the third derivatives of its first two pieces are equal."""
+    span = h0 + h1
+    return [h1, span], ((h0 + 2.0 * span) * h1 * rise0 + h0**2 * rise1) / span
+
+
+def _hermite(x: FloatArray, y: FloatArray, slopes: FloatArray, piece: NDArray[np.intp], t: FloatArray) -> FloatArray:
+    h = (x[piece + 1] - x[piece])[:, None]
+    u = (t - x[piece])[:, None] / h
+    start = (1.0 + 2.0 * u) * (1.0 - u) ** 2 * y[piece] + h * u * (1.0 - u) ** 2 * slopes[piece]
+    return np.asarray(start + u**2 * (3.0 - 2.0 * u) * y[piece + 1] + h * u**2 * (u - 1.0) * slopes[piece + 1])
