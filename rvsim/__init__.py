@@ -19,4 +19,13 @@ The map of the house, from the ground up (each floor imports only floors below i
     self_test, cli, __main__
 """
 
+from rvsim.kinematics import forward_kinematics, jacobian, link_transforms
+
 __version__ = "0.1.0"
+
+__all__ = [
+    "__version__",
+    "forward_kinematics",
+    "jacobian",
+    "link_transforms",
+]
