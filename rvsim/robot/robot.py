@@ -46,6 +46,8 @@ class Joint:
     max_speed: Datum | None = None  # [rad/s] or [m/s]
     max_acceleration: Datum | None = None  # [rad/s²] or [m/s²]
     max_torque: Datum | None = None  # [N m] or [N]
+    dh_assumed: bool = False  # no source gives the row
+    limits_assumed: bool = False  # no source gives the limits
 
     @property
     def revolute(self) -> bool:

@@ -1,0 +1,75 @@
+"""Robot files: the built-in arms and the user's own, read and written. resources/help/robot-file.md explains them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from rvsim.errors import RobotDefinitionError, RobotFileError, UnknownRobotError
+from rvsim.files.atomic import write_atomically
+from rvsim.files.place import Place
+from rvsim.files.robot_format import ROBOT
+from rvsim.files.robot_text import robot_text
+from rvsim.files.toml_source import read_toml, tables_from
+from rvsim.resources import resource
+from rvsim.robot import Robot
+
+_SOURCES = ("rv-m1", "rv-1a", "ur5e", "rrrp", "al5b")
+_TEXTBOOK = ("planar", "articulated", "spherical", "scara", "cylindrical", "cartesian")
+
+
+def robot_names() -> tuple[str, ...]:
+    """The names of the built-in arms: those of the sources first, then the textbook arms."""
+    return _SOURCES + _TEXTBOOK
+
+
+def load_robot(name_or_path: str | Path) -> Robot:
+    """A built-in arm by its name, in capitals or not, or the arm of a robot file by its path.
+
+    Raises:
+        UnknownRobotError: neither a built-in name nor a file that exists.
+        RobotFileError: the file cannot be read or makes no arm.
+    """
+    if isinstance(name_or_path, str) and name_or_path.strip().lower() in robot_names():
+        return _from_file(resource("robots", f"{name_or_path.strip().lower()}.toml"))
+    path = Path(name_or_path)
+    if not _exists(path):
+        raise UnknownRobotError(str(name_or_path), robot_names())
+    return _from_file(path)
+
+
+def robot_from_bytes(data: bytes, path: str | Path) -> Robot:
+    """The arm that the bytes of a robot file mean; `path` is for messages and names an arm without a name.
+
+    Raises:
+        RobotFileError: they make no arm.
+    """
+    robot: Robot = ROBOT.read(tables_from(path, data), Place(str(path)))
+    return robot if robot.name else replace(robot, name=Path(path).stem)
+
+
+def save_robot(robot: Robot, path: str | Path) -> None:
+    """Write a robot file that reads back as the same arm, whole or not at all.
+
+    Raises:
+        RobotDefinitionError: the arm has values that no robot file may hold.
+        OSError: the folder cannot be written.
+    """
+    data = robot_text(robot).encode()
+    try:
+        robot_from_bytes(data, path)
+    except RobotFileError as problem:
+        raise RobotDefinitionError(robot.name, f"cannot be saved: {problem.where}: {problem.found}.") from None
+    write_atomically(Path(path), data)
+
+
+def _from_file(path: Path) -> Robot:
+    robot: Robot = ROBOT.read(read_toml(path), Place(str(path)))
+    return robot if robot.name else replace(robot, name=path.stem)
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):  # a name too long, or with a zero byte
+        return False

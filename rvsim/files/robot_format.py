@@ -1,0 +1,261 @@
+"""The format of robot files as tables of keys: the same tables read a file, refuse a bad one and write a good one."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from rvsim.errors import RvsimError, did_you_mean
+from rvsim.files.kinds import Choice, Flag, HexColor, Items, Key, Number, Numbers, Table, Text
+from rvsim.files.place import LENGTH_UNITS, Place, shown
+from rvsim.files.rigid import roll_pitch_yaw, transform_from
+from rvsim.robot import BoxShape, CapsuleShape, Datum, Gripper, Joint, LinkMass, Robot, Tool
+from rvsim.robot.arrays import FloatArray
+from rvsim.robot.robot import NO_TOOL
+
+# A hundred turns; a kilometre.
+_ANGLE = Number("angle", -36_000.0, 36_000.0)
+_LENGTH = Number("length", -1e6, 1e6)
+_JOINT_VALUE = Number("joint", -1e6, 1e6)
+_POINT = Numbers(("x", "y", "z"), _LENGTH)
+_EDGES = Numbers(("x", "y", "z"), Number("length", 1e-6, 1e6))
+_ANGLES = Numbers(("roll", "pitch", "yaw"), _ANGLE)
+_INERTIA = Numbers(("xx", "yy", "zz", "xy", "xz", "yz"), Number("plain", -1e6, 1e6))
+_LOOK_COLOR = Key("color", HexColor(optional=True), "", "when absent: the colour of the joint that moves it")
+_MOST_JOINTS = 32
+# An arm whose lengths add up to less than this [m] was most likely written in metres instead of millimetres.
+_SMALLEST_ARM = 2e-3
+
+
+# --- a number whose origin matters ---------------------------------------------------------------------------------
+
+
+def _datum(number: Number) -> Table:
+    return Table(
+        keys=(
+            Key("value", number),
+            Key("assumed", Flag(), False, "true where no source gives the number"),
+            Key("source", Text(longest=500), ""),
+        ),
+        build=_build_datum,
+        parts=lambda datum: datum._asdict(),
+    )
+
+
+def _build_datum(values: dict[str, Any], place: Place) -> Datum:
+    if not values["assumed"] and not values["source"]:
+        place.refuse("a number without origin", 'source = "…" or assumed = true', "Say where the number comes from.")
+    return Datum(**values)
+
+
+# --- joints --------------------------------------------------------------------------------------------------------
+
+JOINT = Table(
+    keys=(
+        Key("name", Text(1, 40), comment="shown beside its slider"),
+        Key("type", Choice(("revolute", "prismatic")), comment="revolute turns, prismatic slides"),
+        Key("theta", _ANGLE, comment="DH angle at q = 0 [degrees]: theta is in degrees"),
+        Key("d", _LENGTH, comment="DH offset along z at q = 0"),
+        Key("a", _LENGTH, comment="DH length along x"),
+        Key("alpha", _ANGLE, comment="DH twist about x: alpha is in degrees"),
+        Key("dh_assumed", Flag(), False, "true where no source gives this row"),
+        Key("lower", _JOINT_VALUE, -math.inf, "lower limit of q; without limit: leave the key out"),
+        Key("upper", _JOINT_VALUE, math.inf, "upper limit of q; without limit: leave the key out"),
+        Key("limits_assumed", Flag(), False, "true where no source gives these limits"),
+        Key("home", _JOINT_VALUE, 0.0, "q of the Home button, within the limits"),
+        Key("color", HexColor(), "#0072B2"),
+        Key("max_speed", _datum(Number("joint", 1e-6, 1e6, " per second")), None, "[degrees/s, or length/s]"),
+        Key("max_acceleration", _datum(Number("joint", 1e-6, 1e7, " per second²")), None, "[degrees/s², or length/s²]"),
+        Key("max_torque", _datum(Number("plain", 1e-6, 1e6)), None, "[N m, or N]"),
+    ),
+    build=lambda values, place: _build_joint(values, place),
+    parts=vars,
+    units=lambda table, units: units.for_joint(table.get("type")),
+)
+
+
+def _build_joint(values: dict[str, Any], place: Place) -> Joint:
+    joint = Joint(**values)
+    unit = place.units.joint
+    if not joint.lower < joint.upper:
+        below = f"less than the upper limit {unit.from_si(joint.upper):g}"
+        place.at("key 'lower'").refuse(f"{unit.from_si(joint.lower):g}", below, "Exchange lower and upper?")
+    if not joint.lower <= joint.home <= joint.upper:
+        span = f"a value within the limits {unit.from_si(joint.lower):g} to {unit.from_si(joint.upper):g}"
+        place.at("key 'home'").refuse(f"{unit.from_si(joint.home):g}", span, "Set home to a value the joint can take.")
+    return joint
+
+
+# --- places: the base and the tools --------------------------------------------------------------------------------
+
+_XYZ = Key("xyz", _POINT, (0.0, 0.0, 0.0), "where its origin is")
+_RPY = Key("rpy", _ANGLES, (0.0, 0.0, 0.0), "roll, pitch, yaw [degrees]: R = Rz(yaw) Ry(pitch) Rx(roll)")
+
+BASE = Table(
+    keys=(_XYZ, _RPY),
+    build=lambda values, _: transform_from(values["xyz"], values["rpy"]),
+    parts=lambda T: _place_parts(T),
+)
+_AT_ORIGIN = NO_TOOL.T_flange_tool
+TOOL = Table(
+    keys=(Key("name", Text(1, 40)), Key("title", Text(1, 80), comment="shown in the list of tools"), _XYZ, _RPY),
+    build=lambda values, _: Tool(values["name"], values["title"], transform_from(values["xyz"], values["rpy"])),
+    parts=lambda tool: {"name": tool.name, "title": tool.title, **_place_parts(tool.T_flange_tool)},
+)
+
+
+def _place_parts(T: FloatArray) -> dict[str, Any]:
+    return {"xyz": _tuple(T[:3, 3]), "rpy": roll_pitch_yaw(T)}
+
+
+# --- looks ---------------------------------------------------------------------------------------------------------
+
+GRIPPER = Table(
+    keys=(
+        Key("color", HexColor(), "#2ca02c"),
+        Key("points", Items("point", _POINT, 2, 200), comment="an open line in the flange frame"),
+    ),
+    build=lambda values, _: Gripper(values["points"], values["color"]),
+    parts=lambda gripper: {"color": gripper.color, "points": [_tuple(point) for point in gripper.points]},
+)
+_FRAME = Key(
+    "frame", Number("plain", 0, _MOST_JOINTS + 1), comment="0 the base, i the link behind joint i, n + 1 the tool"
+)
+CAPSULE = Table(
+    keys=(_FRAME, Key("start", _POINT), Key("end", _POINT), Key("radius", Number("length", 1e-6, 1e6)), _LOOK_COLOR),
+    build=lambda values, place: CapsuleShape(**_whole_frame(values, place)),
+    parts=lambda shape: vars(shape) | {"start": _tuple(shape.start), "end": _tuple(shape.end)},
+)
+BOX = Table(
+    keys=(_FRAME, Key("center", _POINT), Key("size", _EDGES), _LOOK_COLOR),
+    build=lambda values, place: BoxShape(**_whole_frame(values, place)),
+    parts=lambda shape: vars(shape) | {"center": _tuple(shape.center), "size": _tuple(shape.size)},
+)
+LOOK = Table(
+    keys=(Key("capsules", Items("capsule", CAPSULE), ()), Key("boxes", Items("box", BOX), ())),
+    build=lambda values, _: (*values["capsules"], *values["boxes"]),
+    parts=lambda shapes: {
+        "capsules": tuple(shape for shape in shapes if isinstance(shape, CapsuleShape)),
+        "boxes": tuple(shape for shape in shapes if isinstance(shape, BoxShape)),
+    },
+)
+
+
+def _whole_frame(values: dict[str, Any], place: Place) -> dict[str, Any]:
+    if values["frame"] != int(values["frame"]):
+        place.at("key 'frame'", _FRAME.comment).refuse(shown(values["frame"]), "a whole number")
+    return values | {"frame": int(values["frame"])}
+
+
+# --- masses --------------------------------------------------------------------------------------------------------
+
+MASS = Table(
+    keys=(
+        Key("mass", Number("plain", 0.0, 1e6), comment="[kg]"),
+        Key("com", _POINT, comment="centre of mass in the link's DH frame"),
+        Key("inertia", _INERTIA, (0.0,) * 6, "xx, yy, zz, xy, xz, yz about the centre of mass [kg m²]"),
+        Key("assumed", Flag(), False),
+        Key("source", Text(longest=500), ""),
+    ),
+    build=lambda values, _: LinkMass(**values | {"inertia": _symmetric(*values["inertia"])}),
+    parts=lambda link: vars(link) | {"com": _tuple(link.com), "inertia": _six(link.inertia)},
+)
+
+
+def _symmetric(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) -> FloatArray:
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def _six(inertia: FloatArray) -> tuple[float, ...]:
+    return _tuple(inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]])
+
+
+def _tuple(values: FloatArray) -> tuple[float, ...]:
+    return tuple(values.tolist())
+
+
+# --- the whole arm -------------------------------------------------------------------------------------------------
+
+ROBOT = Table(
+    keys=(
+        Key("name", Text(0, 60), "", "the short name; when absent: the name of the file"),
+        Key("title", Text(1, 80), comment="the name people use"),
+        Key("family", Text(), "", "the kind of arm"),
+        Key("convention", Choice(("standard", "modified")), comment="DH: standard, or modified (Craig)"),
+        Key("length_unit", Choice(tuple(LENGTH_UNITS)), "millimetre", "unit: for an arm whose lengths have no unit"),
+        Key("source", Text(longest=2000), "", "where the numbers come from"),
+        Key("notes", Text(longest=20_000), "", "what a student should know"),
+        Key("tool_name", Text(0, 40), "", "the tool in use; when absent: the first"),
+        Key("base", BASE, _AT_ORIGIN, "where the first DH frame stands in the base frame"),
+        Key("joint", Items("joint", JOINT, 1, _MOST_JOINTS), comment="one [[joint]] table a joint, base first"),
+        Key("tool", Items("tool", TOOL, 1, 32), (NO_TOOL,), "what can be bolted to the flange"),
+        Key("gripper", GRIPPER, None, "its outline in the stick figure"),
+        Key("look", LOOK, (), "the solid look: capsules and boxes fixed to the links"),
+        Key("mass", Items("mass", MASS, 0, _MOST_JOINTS), (), "one [[mass]] table a link, or none at all"),
+    ),
+    build=lambda values, place: _build_robot(values, place),
+    parts=lambda robot: {
+        **{name: getattr(robot, name) for name in ("name", "title", "family", "convention", "length_unit")},
+        **{name: getattr(robot, name) for name in ("source", "notes", "tool_name", "gripper")},
+        "base": _AT_ORIGIN if np.array_equal(robot.T_base_0, _AT_ORIGIN) else robot.T_base_0,
+        "joint": robot.joints,
+        "tool": robot.tools,
+        "look": robot.shapes,
+        "mass": robot.masses,
+    },
+    units=lambda table, units: units.for_robot(table.get("length_unit", "millimetre")),
+)
+
+
+_FIELDS = {"joint": "joints", "tool": "tools", "look": "shapes", "mass": "masses", "base": "T_base_0"}
+
+
+def _build_robot(values: dict[str, Any], place: Place) -> Robot:
+    _check_names("joint", [joint.name for joint in values["joint"]], place)
+    _check_names("tool", [tool.name for tool in values["tool"]], place)
+    _check_tool_name(values["tool_name"], [tool.name for tool in values["tool"]], place)
+    _check_frames(values["look"], len(values["joint"]), place)
+    _check_masses(len(values["mass"]), len(values["joint"]), place)
+    _check_size(values["joint"], place)
+    renamed = {"joint": "joints", "tool": "tools", "look": "shapes", "mass": "masses", "base": "T_base_0"}
+    arguments = {
+        renamed.get(name, name): value for name, value in values.items() if name != "base" or value is not None
+    }
+    try:
+        return Robot(**arguments)
+    except RvsimError as problem:
+        place.refuse(str(problem), "values that make an arm")
+
+
+def _check_names(kind: str, names: list[str], place: Place) -> None:
+    for number, name in enumerate(names, 1):
+        first = names.index(name) + 1
+        if first < number:
+            there = place.at(f"{kind} {number}").at("key 'name'")
+            there.refuse(f"{name!r} again", f"a name of its own: {kind} {first} is called so already")
+
+
+def _check_tool_name(name: str, names: list[str], place: Place) -> None:
+    if name and name not in names:
+        place.at("key 'tool_name'").refuse(repr(name), "the name of a [[tool]]", did_you_mean(name, names))
+
+
+def _check_frames(shapes: tuple[Any, ...], dof: int, place: Place) -> None:
+    for shape in shapes:
+        if shape.frame > dof + 1:
+            expected = f"0 to {dof + 1} for an arm of {dof} joints"
+            place.at("look").at("key 'frame'", _FRAME.comment).refuse(str(shape.frame), expected)
+
+
+def _check_masses(masses: int, dof: int, place: Place) -> None:
+    if masses not in (0, dof):
+        place.at("mass").refuse(f"{masses} of them", f"none, or one for each of the {dof} links")
+
+
+def _check_size(joints: tuple[Joint, ...], place: Place) -> None:
+    total = sum(abs(joint.d) + abs(joint.a) for joint in joints)
+    if 0.0 < total < _SMALLEST_ARM:
+        found = f"lengths d and a that add up to {place.units.length.from_si(total):g}"
+        place.refuse(found, "lengths in millimetres", 'Metres? 0.15 m is 150. No unit at all? length_unit = "unit".')
