@@ -33,11 +33,13 @@ def refusal(version: "tuple[int, ...]", newer: "str | None") -> "str | None":
 
 
 def newer_python() -> "str | None":
-    """The name of a Python on the PATH that is new enough, or None."""
+    """The name of a Python on the PATH that is new enough and starts, or None."""
     from shutil import which
+    from subprocess import DEVNULL, call
 
     names = [f"python3.{minor}" for minor in range(20, OLDEST[1] - 1, -1)]
-    return next((name for name in names if which(name)), None)
+    starts = (name for name in names if which(name) and call([name, "-c", ""], stderr=DEVNULL) == 0)
+    return next(starts, None)
 
 
 def main(arguments: "list[str]") -> None:
