@@ -20,7 +20,7 @@ The map of the house, from the ground up (each floor imports only floors below i
 """
 
 from rvsim.files.robot_file import load_robot, robot_names
-from rvsim.kinematics import forward_kinematics, jacobian, link_transforms
+from rvsim.kinematics import forward_kinematics, inverse_kinematics_batch, jacobian, link_transforms
 from rvsim.robot import Robot
 
 __version__ = "0.1.0"
@@ -29,6 +29,7 @@ __all__ = [
     "Robot",
     "__version__",
     "forward_kinematics",
+    "inverse_kinematics_batch",
     "jacobian",
     "link_transforms",
     "load_robot",

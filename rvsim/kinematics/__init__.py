@@ -2,6 +2,17 @@
 
 from rvsim.kinematics.dh import dh_transform, joint_transforms
 from rvsim.kinematics.forward import forward_kinematics, link_transforms
+from rvsim.kinematics.inverse import branch_labels, free_pitch_batch, inverse_kinematics_batch, limit_copies
 from rvsim.kinematics.jacobian import jacobian
 
-__all__ = ["dh_transform", "forward_kinematics", "jacobian", "joint_transforms", "link_transforms"]
+__all__ = [
+    "branch_labels",
+    "dh_transform",
+    "forward_kinematics",
+    "free_pitch_batch",
+    "inverse_kinematics_batch",
+    "jacobian",
+    "joint_transforms",
+    "limit_copies",
+    "link_transforms",
+]

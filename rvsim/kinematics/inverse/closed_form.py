@@ -1,0 +1,71 @@
+"""What every family of closed forms offers, and how its conditions are asked of an arm."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from typing import ClassVar
+
+from rvsim.kinematics.inverse.chain import TOLERANCE, Chain
+from rvsim.spatial.arrays import FloatArray
+
+Condition = tuple[bool, str]
+
+
+class ClosedForm(ABC):
+    """The closed form of one arm. A subclass is a family.
+
+    `solve` works on structures of arrays: S (3, 4, m) holds, entry by entry, the poses of the last frame in frame 0,
+    or those of the tool where only its place counts (`place_only`). `labels` names each branch in the field's words.
+    """
+
+    title: ClassVar[str]
+    joints: ClassVar[str]
+    task: ClassVar[str] = "pose"
+    place_only: ClassVar[bool] = False
+    labels: tuple[str, ...]
+
+    def __init__(self, chain: Chain) -> None:
+        self.chain = chain
+
+    @classmethod
+    @abstractmethod
+    def conditions(cls, chain: Chain) -> Iterable[Condition]:
+        """What must hold, each with the sentence that says so; asked only of arms with the family's joint types."""
+
+    @abstractmethod
+    def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
+        """Variables of the normal form (branches, n, m), NaN where a branch does not exist.
+
+        Where a joint is free (a continuum of solutions) it takes its value in `free` (n,).
+        """
+
+    @classmethod
+    def failure(cls, chain: Chain) -> str:
+        """The first condition the arm breaks, or ""."""
+        return next((sentence for holds, sentence in cls.conditions(chain) if not holds), "")
+
+
+def is_zero(value: float) -> bool:
+    """Whether a length or an angle of a DH table counts as zero."""
+    return abs(value) <= TOLERANCE
+
+
+def right_angle(chain: Chain, i: int) -> Condition:
+    """Axes i and i + 1 (from 0) at a right angle."""
+    return chain.square(i), f"axes {i + 1} and {i + 2} must be at a right angle."
+
+
+def parallel(chain: Chain, i: int) -> Condition:
+    """Axes i and i + 1 (from 0) parallel."""
+    return chain.parallel(i), f"axes {i + 1} and {i + 2} must be parallel."
+
+
+def intersecting(chain: Chain, i: int) -> Condition:
+    """No distance a between axes i and i + 1 (from 0)."""
+    return is_zero(chain.a[i]), f"axes {i + 1} and {i + 2} must meet: no length a between them."
+
+
+def long_enough(chain: Chain, i: int) -> Condition:
+    """A link i (from 0) of some length."""
+    return not is_zero(chain.a[i]), f"the link between axes {i + 1} and {i + 2} must have a length a."

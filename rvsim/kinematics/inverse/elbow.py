@@ -1,0 +1,45 @@
+"""Two links in a plane that must reach a point: the step every arm with an elbow shares."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rvsim.spatial.arrays import FloatArray
+
+Mask = np.ndarray[Any, np.dtype[np.bool_]]
+COSINE_TOLERANCE = 1e-9  # a cosine so little above 1 is rounding: the elbow is straight
+
+
+class Elbow(NamedTuple):
+    """The two solutions θ2 = direction ∓ lean, θ3 = ± bend, and where there is none."""
+
+    direction: FloatArray
+    lean: FloatArray
+    bend: FloatArray
+    missing: Mask
+
+
+def solve_elbow(u: FloatArray, w: FloatArray, a2: float, a3: float) -> Elbow:
+    """Links a2, a3 (any sign, not 0) from the origin to (u, w), each (m,) [m].
+
+    The law of cosines in its half-angle form, tan²(θ3/2) = (1 − cos θ3)/(1 + cos θ3): it keeps its digits where
+    the elbow is straight and where it is folded. Spong, Hutchinson, Vidyasagar (2006), §3.3.
+    """
+    square = u * u + w * w
+    half = 0.5 / (a2 * a3)
+    one_minus = ((a2 + a3) ** 2 - square) * half
+    one_plus = (square - (a2 - a3) ** 2) * half
+    missing = np.minimum(one_minus, one_plus) < -COSINE_TOLERANCE
+    np.maximum(one_minus, 0.0, out=one_minus)
+    np.maximum(one_plus, 0.0, out=one_plus)
+    bend = 2.0 * np.arctan2(np.sqrt(one_minus), np.sqrt(one_plus))
+    lean = np.arctan2(a3 * np.sqrt(one_minus * one_plus), (square + (a2 * a2 - a3 * a3)) * (0.5 / a2))
+    return Elbow(np.arctan2(w, u), lean, bend, missing)
+
+
+def erase(branches: FloatArray, missing: Mask) -> None:
+    """NaN in every joint (..., m) of the poses (m,) that have no solution."""
+    if missing.any():
+        branches[..., missing] = np.nan
