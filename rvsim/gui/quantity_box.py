@@ -48,6 +48,11 @@ class QuantityBox(QDoubleSpinBox):
         """The SI value, exactly as it was set."""
         return self._quantity
 
+    @property
+    def limits(self) -> tuple[float, float]:
+        """The SI values between which a value is taken; ±inf where there is no limit."""
+        return self._lower, self._upper
+
     def set_quantity(self, quantity: float) -> None:
         """Show an SI value, without telling anybody."""
         if quantity == self._quantity:

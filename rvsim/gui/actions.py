@@ -1,0 +1,127 @@
+"""Every command of the window as a table: menu, text, shortcut, what it says, whether it is a switch."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QMainWindow, QMenu
+
+Key = QKeySequence.StandardKey
+
+
+class ActionSpec(NamedTuple):
+    """One command. `group` makes the commands of the same group exclude each other; `before` a separator before it."""
+
+    name: str
+    menu: str
+    text: str
+    tip: str = ""
+    shortcut: str | QKeySequence.StandardKey = ""
+    checkable: bool = False
+    group: str = ""
+    before: bool = False
+
+
+ACTIONS: tuple[ActionSpec, ...] = (
+    ActionSpec("open_robot", "&File", "Open robot file…", "Read an arm from a .toml file", Key.Open),
+    ActionSpec("save_robot", "&File", "Save robot file as…", "Write this arm as a .toml file", Key.SaveAs),
+    ActionSpec("save_picture", "&File", "Save picture…", "Save the scene as a picture", "Ctrl+Shift+P", before=True),
+    ActionSpec("save_csv", "&File", "Save path as CSV…", "Save the tracked path with its joints", "Ctrl+Shift+E"),
+    ActionSpec("quit", "&File", "Quit", "Close rvsim", Key.Quit, before=True),
+    ActionSpec(
+        "copy_pose_text", "&Edit", "Copy pose as text", "Joints and tool pose", "Ctrl+Shift+C", before=True
+    ),
+    ActionSpec("copy_pose_numpy", "&Edit", "Copy pose as NumPy", "Joint values and tool pose, full precision"),
+    ActionSpec("copy_pose_latex", "&Edit", "Copy pose as LaTeX", "The tool's matrix"),
+    ActionSpec("view_iso", "&View", "Isometric", "Look from the front corner", "Ctrl+1"),
+    ActionSpec("view_top", "&View", "Top", "Look straight down", "Ctrl+2"),
+    ActionSpec("view_front", "&View", "Front", "Look along −x", "Ctrl+3"),
+    ActionSpec("view_side", "&View", "Side", "Look along y", "Ctrl+4"),
+    ActionSpec("view_source", "&View", "As in the source: view(70, 10)", "The RV-M1 report's direction", "Ctrl+5"),
+    ActionSpec("fit", "&View", "Fit", "The whole arm in view", "Ctrl+0"),
+    ActionSpec("box_zoom", "&View", "Zoom to a box", "Draw a box around what you want to see", "Ctrl+B"),
+    ActionSpec("orthographic", "&View", "Orthographic", "Parallel lines stay parallel", "Ctrl+6", True),
+    ActionSpec("look_stick", "&View", "Stick figure", "Lines and joints only", "", True, "look", True),
+    ActionSpec("look_solid", "&View", "Solid", "The arm's body", "", True, "look"),
+    ActionSpec("look_both", "&View", "Solid and stick", "The figure inside the body", "", True, "look"),
+    ActionSpec(
+        "show_frames", "&View", "Frames", "Frames of base, joints and tool", "Ctrl+F", True, before=True
+    ),
+    ActionSpec("show_labels", "&View", "Labels", "Names in the scene", "", True),
+    ActionSpec("show_floor", "&View", "Floor", "The floor with its dimensions", "", True),
+    ActionSpec("show_trail", "&View", "Tool trail", "What the tool has drawn", "", True),
+    ActionSpec("dark", "&View", "Dark", "Light letters on a dark ground", "Ctrl+Shift+D", True, before=True),
+    ActionSpec(
+        "presentation", "&View", "Presentation size", "Larger, for a projector", "Ctrl+Shift+F", True
+    ),
+    ActionSpec("radians", "&View", "Angles in radians", "Instead of degrees", "", True, before=True),
+    ActionSpec("metres", "&View", "Lengths in metres", "Instead of millimetres", "", True),
+    ActionSpec("more_decimals", "&View", "More decimals", "One more decimal everywhere", "Ctrl+."),
+    ActionSpec("fewer_decimals", "&View", "Fewer decimals", "One decimal less everywhere", "Ctrl+,"),
+    ActionSpec("animated", "&View", "Smooth camera moves", "The camera glides to a new view", "", True),
+    ActionSpec("home", "&Robot", "Home", "The arm's home pose", "Ctrl+H"),
+    ActionSpec("zero", "&Robot", "Zero", "All joint variables 0", "Ctrl+Shift+H"),
+    ActionSpec("random", "&Robot", "Random pose", "Any pose within the limits", "Ctrl+R"),
+    ActionSpec("plot", "&Robot", "Plot", "Draw the arm at the typed values", "Ctrl+Return"),
+    ActionSpec("save_pose", "&Robot", "Save pose…", "Remember this pose under a name", "Ctrl+D"),
+    ActionSpec("live", "&Robot", "Live", "The arm follows each value at once", "", True, before=True),
+    ActionSpec("ignore_limits", "&Robot", "Ignore limits", "Let joints go beyond their limits", "Ctrl+I", True),
+    ActionSpec("track_line", "&Path", "Track line", "Move the tool along the line", "Ctrl+L"),
+    ActionSpec("track_trajectory", "&Path", "Track trajectory", "Move the tool along the trajectory", "Ctrl+T"),
+    ActionSpec("clear_path", "&Path", "Clear path", "Take the path out of the scene", "Ctrl+Shift+X"),
+    ActionSpec("play", "&Path", "Play or pause", "Run or hold the motion", "F5", before=True),
+    ActionSpec("stop", "&Path", "Stop", "Stop the motion where it is", "Esc"),
+    ActionSpec("step_forward", "&Path", "Step forward", "A little later", "F7"),
+    ActionSpec("step_back", "&Path", "Step back", "A little earlier", "F6"),
+    ActionSpec("quick_start", "&Help", "Quick start", "The first minute with rvsim", Key.HelpContents),
+    ActionSpec("shortcuts", "&Help", "Keyboard shortcuts", "All of them", "Ctrl+/"),
+    ActionSpec("about", "&Help", "About rvsim", "Version and diagnostics", before=True),
+)
+
+MENUS = ("&File", "&Edit", "&View", "&Robot", "&Path", "&Help")
+
+
+def make_actions(window: QMainWindow) -> dict[str, QAction]:
+    """The actions of the table, in the window's menus; what they do is connected by the window."""
+    menus = {title: _menu(window, title) for title in MENUS}
+    groups: dict[str, QActionGroup] = {}
+    actions = {}
+    for spec in ACTIONS:
+        action = _action(window, spec)
+        if spec.group:
+            groups.setdefault(spec.group, QActionGroup(window)).addAction(action)
+        if spec.before:
+            menus[spec.menu].addSeparator()
+        menus[spec.menu].addAction(action)
+        actions[spec.name] = action
+    return actions
+
+
+def _menu(window: QMainWindow, title: str) -> QMenu:
+    menu = window.menuBar().addMenu(title)
+    menu.setObjectName(title.replace("&", "").lower() + "_menu")
+    menu.setToolTipsVisible(True)
+    return menu
+
+
+def _action(window: QMainWindow, spec: ActionSpec) -> QAction:
+    action = QAction(spec.text, window)
+    action.setObjectName(f"action_{spec.name}")
+    action.setCheckable(spec.checkable)
+    action.setStatusTip(spec.tip)
+    if spec.shortcut:
+        action.setShortcut(QKeySequence(spec.shortcut))
+    keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+    action.setToolTip(f"{spec.tip} ({keys})" if keys else spec.tip)
+    return action
+
+
+def shortcut_table() -> list[tuple[str, str, str]]:
+    """Menu, command and keys of every command that has keys."""
+    rows = []
+    for spec in ACTIONS:
+        keys = QKeySequence(spec.shortcut).toString(QKeySequence.SequenceFormat.NativeText) if spec.shortcut else ""
+        if keys:
+            rows.append((spec.menu.replace("&", ""), spec.text, keys))
+    return rows

@@ -1,0 +1,270 @@
+"""What each command of `actions.ACTIONS` does. Switches are a table too: command, preference, value when on and off."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QFileDialog, QMessageBox
+
+from rvsim.errors import RvsimError
+from rvsim.files import save_robot, user_folder
+from rvsim.gui.actions import shortcut_table
+from rvsim.gui.diagnostics import diagnostics
+from rvsim.gui.picture import save_image
+from rvsim.gui.quantities import format_quantity, joint_kind
+from rvsim.kinematics import forward_kinematics
+from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
+from rvsim.lab.tracking_csv import write_tracking_csv
+
+if TYPE_CHECKING:
+    from rvsim.gui.main_window import MainWindow
+
+
+class Switch(NamedTuple):
+    """A command that is on when a preference has the value `on`; switched off, the preference gets `off`."""
+
+    preference: str
+    on: Any
+    off: Any
+
+
+SWITCHES: dict[str, Switch] = {
+    "look_stick": Switch("look", "stick", None),
+    "look_solid": Switch("look", "solid", None),
+    "look_both": Switch("look", "both", None),
+    "show_frames": Switch("show_frames", True, False),
+    "show_labels": Switch("show_labels", True, False),
+    "show_floor": Switch("show_floor", True, False),
+    "show_trail": Switch("show_trail", True, False),
+    "orthographic": Switch("orthographic", True, False),
+    "dark": Switch("theme", "dark", "light"),
+    "presentation": Switch("presentation", True, False),
+    "radians": Switch("angle_unit", "rad", "deg"),
+    "metres": Switch("length_unit", "m", "mm"),
+    "animated": Switch("animated", True, False),
+    "live": Switch("live", True, False),
+}
+
+_QUICK_START = """<h3>The first minute</h3>
+<p>Drag a slider on the left: the joint turns and the read-out in the panel <b>Tool</b> follows.
+Type a value, or an expression such as <code>pi/4</code> or <code>2*30</code>.</p>
+<p>Press <b>Track line</b>: the tool moves from start to end, and <b>Result</b> says how many points were reached,
+how exactly, and which joint stands in the way of the others.</p>
+<p>Choose a letter under <b>Trajectory</b> and press <b>Track trajectory</b>.
+Change the arm itself in the panel <b>DH table</b>: it follows at once, on a copy of your own.</p>
+<p>In the scene: drag to turn, right-drag to move, wheel to zoom, double-click to centre.</p>"""
+
+
+class Commands(QObject):
+    """Connects the table of actions to what they do."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window, self._session = window, window.session
+        self._preferences = window.preferences
+
+    def connect_all(self) -> None:
+        """Connect every action; a command of the table without a deed is a programming error."""
+        deeds = self._deeds()
+        for name, action in self._window.actions_by_name.items():
+            if name in SWITCHES:
+                action.toggled.connect(self._switcher(name))
+            elif name not in ("undo", "redo"):
+                deed = deeds[name]
+                action.triggered.connect(lambda _checked=False, deed=deed: deed())
+        self._preferences.changed.connect(self._show_switches)
+        self._session.changed.connect(lambda *_: self._show_ignore())
+        self._session.tracking_changed.connect(lambda *_: self._show_enabled())
+        self._window.motion.state_changed.connect(lambda *_: self._show_enabled())
+        self._window.motion.loaded.connect(self._show_enabled)
+        self._show_switches("")
+        self._show_ignore()
+        self._show_enabled()
+
+    def _deeds(self) -> dict[str, Callable[[], object]]:
+        window, joints, view, motion = self._window, self._window.joints, self._window.scene_view, self._window.motion
+        return {
+            "open_robot": self.open_robot,
+            "save_robot": self.save_robot,
+            "save_picture": self.save_picture,
+            "save_csv": self.save_csv,
+            "quit": window.close,
+            "copy_pose_text": lambda: self._copy_pose(matrix_text),
+            "copy_pose_numpy": lambda: self._copy_pose(matrix_numpy),
+            "copy_pose_latex": lambda: self._copy_pose(matrix_latex),
+            **{
+                f"view_{name}": (lambda name=name: view.view(name))
+                for name in ("iso", "top", "front", "side", "source")
+            },
+            "fit": view.fit,
+            "box_zoom": view.begin_box_zoom,
+            "more_decimals": lambda: self._more_decimals(1),
+            "fewer_decimals": lambda: self._more_decimals(-1),
+            "home": joints.go_home,
+            "zero": joints.go_zero,
+            "random": joints.go_random,
+            "plot": joints.plot_typed,
+            "save_pose": joints.ask_pose_name,
+            "ignore_limits": joints.ignore.toggle,
+            "track_line": window.tracker.track_line,
+            "track_trajectory": window.tracker.track_trajectory,
+            "clear_path": self.clear_path,
+            "play": motion.toggle,
+            "stop": motion.pause,
+            "step_forward": lambda: motion.step(0.05),
+            "step_back": lambda: motion.step(-0.05),
+            "quick_start": lambda: self._tell("Quick start", _QUICK_START),
+            "shortcuts": self.show_shortcuts,
+            "about": self.show_about,
+        }
+
+    # --- switches --------------------------------------------------------------------------------------------------
+
+    def _switcher(self, name: str) -> Callable[[bool], None]:
+        switch = SWITCHES[name]
+
+        def switched(on: bool) -> None:
+            value = switch.on if on else switch.off
+            if value is not None:
+                self._preferences.set(switch.preference, value)
+
+        return switched
+
+    def _show_switches(self, _name: str) -> None:
+        for name, switch in SWITCHES.items():
+            self._window.actions_by_name[name].setChecked(self._preferences[switch.preference] == switch.on)
+        self._window.scene_view.set_orthographic(self._preferences["orthographic"])
+        self._window.scene_view.animated = self._preferences["animated"]
+
+    def _show_ignore(self) -> None:
+        self._window.actions_by_name["ignore_limits"].setChecked(self._session.experiment.ignore_limits)
+
+    def _show_enabled(self) -> None:
+        actions = self._window.actions_by_name
+        playing = self._window.motion.player.playing
+        there = self._window.motion.player.trajectory is not None
+        actions["stop"].setEnabled(playing)
+        for name in ("play", "step_forward", "step_back"):
+            actions[name].setEnabled(there)
+        for name in ("save_csv", "clear_path"):
+            actions[name].setEnabled(self._session.tracking is not None)
+
+    def _more_decimals(self, step: int) -> None:
+        self._preferences.set("extra_decimals", min(max(self._preferences["extra_decimals"] + step, 0), 4))
+
+    # --- files -----------------------------------------------------------------------------------------------------
+
+    def open_robot(self) -> None:
+        """Ask for a robot file and take its arm."""
+        file, _ = QFileDialog.getOpenFileName(self._window, "Open robot file", self._folder(), "Robot files (*.toml)")
+        if file:
+            self.open_robot_file(Path(file))
+
+    def open_robot_file(self, file: Path) -> None:
+        """Take the arm of a robot file, or say what is wrong with it."""
+        try:
+            robot = self._window.library.open(file)
+        except (RvsimError, OSError) as problem:
+            self._fail("This robot file cannot be used.", problem)
+            return
+        self._window.joints.show_robots(self._window.library.titles, robot.name)
+        self._session.use_robot(robot)
+        self._session.say(f"Opened the {robot.title} from {file.name}.")
+
+    def save_robot(self) -> None:
+        """Ask for a place and write the present arm there."""
+        start = str(Path(self._folder()) / f"{self._session.robot.name}.toml")
+        file, _ = QFileDialog.getSaveFileName(self._window, "Save robot file", start, "Robot files (*.toml)")
+        if file:
+            self._write(Path(file), lambda path: save_robot(self._session.robot, path))
+
+    def save_picture(self) -> None:
+        """Ask for a place and save the scene there."""
+        start = str(Path.home() / f"{self._session.robot.name}.png")
+        file, _ = QFileDialog.getSaveFileName(self._window, "Save picture", start, "Pictures (*.png *.jpg)")
+        if file:
+            self._write(Path(file), lambda path: save_image(self._window.scene_view.image(), path))
+
+    def save_csv(self) -> None:
+        """Ask for a place and save the tracked path there."""
+        tracking = self._session.tracking
+        if tracking is None:
+            return
+        start = str(Path.home() / f"{tracking.robot.name}-{tracking.path.name}.csv")
+        file, _ = QFileDialog.getSaveFileName(self._window, "Save path as CSV", start, "Tables (*.csv)")
+        if file:
+            self._write(Path(file), lambda path: write_tracking_csv(tracking, path))
+
+    def _write(self, file: Path, write: Callable[[Path], object]) -> None:
+        try:
+            write(file)
+        except (RvsimError, OSError) as problem:
+            self._fail("Nothing was written.", problem)
+            return
+        self._session.say(f"Saved {file}.")
+
+    def _folder(self) -> str:
+        return str(user_folder() or Path.home())
+
+    def _fail(self, what: str, problem: Exception) -> None:
+        self._session.say(f"{what} {problem}", "error")
+        box = QMessageBox(QMessageBox.Icon.Warning, "rvsim", what, parent=self._window)
+        box.setObjectName("file_problem")
+        box.setInformativeText(str(problem))
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.open()
+
+    # --- the rest --------------------------------------------------------------------------------------------------
+
+    def clear_path(self) -> None:
+        """Take the tracked path and its motion out."""
+        self._window.motion.load(None, "")
+        self._session.set_tracking(None)
+
+    def _copy_pose(self, text_of: Callable[[Any], str]) -> None:
+        robot, q = self._session.robot, self._session.q
+        T = forward_kinematics(robot, q)
+        if text_of is matrix_text:
+            joints = ", ".join(
+                f"{name} {format_quantity(value, joint_kind(robot, i), self._preferences)}"
+                for i, (name, value) in enumerate(zip(robot.joint_names, q, strict=True))
+            ).replace("\u2212", "-")
+            text = f"{robot.title}: {joints}\n{matrix_text(T)}"
+        elif text_of is matrix_numpy:
+            text = f"# {robot.title}, radians and metres\nq = {matrix_numpy(q)}\nT = {matrix_numpy(T)}"
+        else:
+            text = text_of(np.asarray(T))
+        QGuiApplication.clipboard().setText(text)
+        self._session.say("Pose copied.")
+
+    def show_shortcuts(self) -> None:
+        """All shortcuts in one table."""
+        rows = "".join(
+            f"<tr><td>{menu}</td><td>&nbsp;{text}&nbsp;</td><td><b>{keys}</b></td></tr>"
+            for menu, text, keys in shortcut_table()
+        )
+        extra = (
+            "<p>In a value box: ↑ ↓ step 1, with Shift 10, with Ctrl 0.1. In the scene: arrows turn, + and − zoom.</p>"
+        )
+        self._tell("Keyboard shortcuts", f"<table>{rows}</table>{extra}")
+
+    def show_about(self) -> None:
+        """Version, licence and what helps to help."""
+        renderer = self._window.scene_view.renderer.description
+        self._tell(
+            "About rvsim",
+            "<h3>rvsim</h3><p>See, move, compute and understand a robot arm, then drive a real one.<br>"
+            f"MIT licence. Built with Qt (LGPL).</p><pre>{diagnostics(renderer)}</pre>",
+        )
+
+    def _tell(self, title: str, text: str) -> None:
+        box = QMessageBox(QMessageBox.Icon.NoIcon, title, text, parent=self._window)
+        box.setTextFormat(Qt.TextFormat.RichText)
+        box.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.open()

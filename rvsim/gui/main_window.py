@@ -1,0 +1,221 @@
+"""Assembles the window: panels in docks, scene in the middle, time below it. It decides nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QByteArray, Qt
+from PySide6.QtGui import QAction, QCloseEvent
+from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QToolBar, QWidget
+
+from rvsim.experiment import Experiment
+from rvsim.gui.actions import make_actions
+from rvsim.gui.commands import Commands
+from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.panels.dh_table import DHTablePanel
+from rvsim.gui.panels.joints import JointsPanel
+from rvsim.gui.panels.matrices import MatricesPanel
+from rvsim.gui.panels.path import PathPanel
+from rvsim.gui.panels.points import PointsPanel
+from rvsim.gui.panels.tool import ToolPanel
+from rvsim.gui.player_bar import PlayerBar
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.renderers.choose import Choice, renderer_factory
+from rvsim.gui.robot_library import RobotLibrary
+from rvsim.gui.scene_view import SceneView
+from rvsim.gui.session import Session
+from rvsim.gui.stage import Stage
+from rvsim.gui.theme import apply_theme, set_role
+from rvsim.gui.tracker import PathTracker
+from rvsim.gui.widgets import ElidedLabel, column_of
+
+_TOOLBAR = ("home", "zero", "|", "undo", "redo", "|", "view_iso", "view_top", "view_front", "view_side", "fit",
+            "box_zoom", "|", "look_stick", "look_solid", "look_both", "show_frames", "|", "dark")  # fmt: skip
+_TOOLBAR_TEXTS = {
+    "home": "⌂ Home", "zero": "0 Zero", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": "Iso", "box_zoom": "Box zoom",
+    "look_stick": "Stick", "look_both": "Both", "dark": "◐ Dark",
+}  # fmt: skip
+_STATE_VERSION = 1
+
+
+class MainWindow(QMainWindow):
+    """The window of rvsim, objectName `main_window`."""
+
+    def __init__(self, session: Session, preferences: Preferences, library: RobotLibrary, choice: Choice) -> None:
+        super().__init__()
+        self.setObjectName("main_window")
+        self.session, self.preferences, self.library = session, preferences, library
+        self.motion = MotionControl(session, preferences, self)
+        self.tracker = PathTracker(session, self.motion, self)
+        self.scene_view = SceneView(renderer_factory(choice))
+        self.stage = Stage(session, self.motion, preferences, self.scene_view, self)
+        self.player_bar = PlayerBar(self.motion, preferences)
+        self.joints = JointsPanel(session, preferences)
+        self.actions_by_name = make_actions(self)
+        self._add_undo_actions()
+        self.commands = Commands(self)
+        self._make_center()
+        self._make_docks()
+        self._make_toolbar()
+        self._make_status_bar(choice)
+        self._connect()
+        self._show_robot()
+        self.resize(1366, 768)
+        self._restore_layout()
+
+    # --- assembly --------------------------------------------------------------------------------------------------
+
+    def _make_center(self) -> None:
+        center = QWidget()
+        column_of(center, self.scene_view, self.player_bar)
+        center.layout().setStretch(0, 1)
+        self.setCentralWidget(center)
+
+    def _make_docks(self) -> None:
+        self.setDockOptions(
+            QMainWindow.DockOption.AnimatedDocks
+            | QMainWindow.DockOption.AllowTabbedDocks
+            | QMainWindow.DockOption.AllowNestedDocks
+        )
+        self.setTabPosition(Qt.DockWidgetArea.RightDockWidgetArea, self.tabWidget_position())
+        left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
+        arguments = (self.session, self.preferences)
+        self._add_dock("arm_dock", "Arm", self.joints, left)
+        docks = [
+            self._add_dock("path_dock", "Path", PathPanel(*arguments, self.tracker), right),
+            self._add_dock("tool_dock", "Tool", ToolPanel(*arguments), right),
+            self._add_dock("matrices_dock", "Matrices", MatricesPanel(*arguments), right),
+            self._add_dock("points_dock", "Points", PointsPanel(*arguments), right),
+            self._add_dock("dh_dock", "DH table", DHTablePanel(*arguments), right),
+        ]
+        for dock in docks[1:]:
+            self.tabifyDockWidget(docks[0], dock)
+        docks[0].raise_()
+        self.resizeDocks([self.findChild(QDockWidget, "arm_dock"), docks[0]], [284, 372], Qt.Orientation.Horizontal)
+
+    @staticmethod
+    def tabWidget_position() -> object:
+        """Tabs above the panels, where eyes look first."""
+        from PySide6.QtWidgets import QTabWidget
+
+        return QTabWidget.TabPosition.North
+
+    def _add_dock(self, object_name: str, title: str, panel: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        dock = QDockWidget(title, self)
+        dock.setObjectName(object_name)
+        dock.setWidget(panel)
+        self.addDockWidget(area, dock)
+        return dock
+
+    def _make_toolbar(self) -> None:
+        bar = QToolBar("Toolbar", self)
+        bar.setObjectName("toolbar")
+        bar.setMovable(False)
+        bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
+        for name in _TOOLBAR:
+            if name == "|":
+                bar.addSeparator()
+                continue
+            action = self.actions_by_name[name]
+            action.setIconText(_TOOLBAR_TEXTS.get(name, action.text()))
+            bar.addAction(action)
+        self.addToolBar(bar)
+
+    def _add_undo_actions(self) -> None:
+        stack = self.session.undo_stack
+        edit = self.findChild(QWidget, "edit_menu")
+        first = edit.actions()[0]
+        for name, action, keys in (
+            ("undo", stack.createUndoAction(self, "Undo"), "Ctrl+Z"),
+            ("redo", stack.createRedoAction(self, "Redo"), "Ctrl+Shift+Z"),
+        ):
+            action.setObjectName(f"action_{name}")
+            action.setShortcut(keys)
+            edit.insertAction(first, action)
+            self.actions_by_name[name] = action
+
+    def _make_status_bar(self, choice: Choice) -> None:
+        self.message = ElidedLabel()
+        self.message.setObjectName("status_message")
+        self.message.setAccessibleName("Message")
+        self.renderer_label = QLabel(choice.name)
+        self.renderer_label.setObjectName("renderer_label")
+        self.renderer_label.setToolTip(choice.reason)
+        set_role(self.renderer_label, role="muted")
+        self.statusBar().addWidget(self.message, 1)
+        self.statusBar().addPermanentWidget(self.renderer_label)
+        self.statusBar().setSizeGripEnabled(False)
+
+    def _connect(self) -> None:
+        self.session.said.connect(self._say)
+        self.session.changed.connect(self._on_changed)
+        self.joints.robot_wanted.connect(lambda name: self.session.use_robot(self.library[name]))
+        self.preferences.changed.connect(self._on_preference)
+        self.scene_view.painted.connect(self._show_frame_time)
+        self.commands.connect_all()
+
+    # --- what is shown ---------------------------------------------------------------------------------------------
+
+    def _say(self, text: str, level: str) -> None:
+        self.message.setText(text)
+        set_role(self.message, level=level)
+
+    def _show_frame_time(self, milliseconds: float) -> None:
+        self.renderer_label.setText(f"{self.scene_view.renderer.description}, {milliseconds:.1f} ms")
+
+    def _on_changed(self, before: Experiment, after: Experiment) -> None:
+        if after.robot is not before.robot:
+            self._show_robot()
+
+    def _show_robot(self) -> None:
+        robot = self.session.robot
+        known = robot.name in self.library
+        self.library.remember(robot)
+        if not known or self.joints.robots.count() == 0:
+            self.joints.show_robots(self.library.titles, robot.name)
+        self.setWindowTitle(f"{robot.title} \u2013 rvsim")
+        if robot.name in self.library:
+            self.preferences.set("robot", robot.name)
+
+    def _on_preference(self, name: str) -> None:
+        if name in ("theme", "presentation"):
+            self.apply_theme()
+
+    def apply_theme(self) -> None:
+        """Dress the application as the preferences say."""
+        app = QApplication.instance()
+        assert isinstance(app, QApplication)
+        apply_theme(app, self.preferences["theme"], presentation=self.preferences["presentation"])
+
+    def say_welcome(self) -> None:
+        """The first minute: what to do now."""
+        self.session.say("Drag a slider, or press Track line.")
+        for problem in self.library.problems:
+            self.session.say(problem, "warning")
+
+    # --- layout ----------------------------------------------------------------------------------------------------
+
+    def _restore_layout(self) -> None:
+        geometry, layout = self.preferences.window_state("geometry"), self.preferences.window_state("layout")
+        if not geometry.isEmpty():
+            self.restoreGeometry(geometry)
+        if not layout.isEmpty():
+            self.restoreState(layout, _STATE_VERSION)
+
+    def window_layout(self) -> tuple[QByteArray, QByteArray]:
+        """Geometry and dock layout, as they are now."""
+        return self.saveGeometry(), self.saveState(_STATE_VERSION)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Remember the layout; stop what moves."""
+        self.motion.pause()
+        geometry, layout = self.window_layout()
+        self.preferences.keep_window_state("geometry", geometry)
+        self.preferences.keep_window_state("layout", layout)
+        super().closeEvent(event)
+
+    def on(self, name: str, slot: Callable[..., object]) -> QAction:
+        """Connect a command of the table."""
+        action = self.actions_by_name[name]
+        action.triggered.connect(slot)
+        return action

@@ -1,0 +1,160 @@
+"""Plays trajectories in the window: a timer lets time pass, the session shows each moment, one undo step leads back."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
+
+from rvsim.experiment import Experiment
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.session import Session
+from rvsim.playback import Player
+from rvsim.playback.player import Playable
+
+_FRAME_MS = 16
+_LONGEST_STEP = 0.25  # [s]: after a hang the motion goes on from where it was seen, it does not leap
+
+
+class MotionControl(QObject):
+    """The player of the window.
+
+    Signals:
+        moved(time): another moment is shown [s].
+        state_changed(state): a `rvsim.playback.player.PlayerState`.
+        loaded(): another trajectory, or none, is in the player.
+    """
+
+    moved = Signal(float)
+    state_changed = Signal(str)
+    loaded = Signal()
+
+    def __init__(self, session: Session, preferences: Preferences, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._preferences = session, preferences
+        self.player = Player()
+        self.player.speed = preferences["speed"]
+        self._text = ""
+        self._before: Experiment | None = None
+        self._showing = False
+        self._said_state = self.player.state
+        self._clock = QElapsedTimer()
+        self._timer = QTimer(self)
+        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
+        self._timer.setInterval(_FRAME_MS)
+        self._timer.timeout.connect(self._on_tick)
+        session.changed.connect(self._on_changed)
+        preferences.changed.connect(self._on_preference)
+
+    def load(self, trajectory: Playable | None, text: str) -> None:
+        """Put a trajectory in; `text` names its undo step, for instance "Track line"."""
+        self._rest()
+        self.player.load(trajectory)
+        self._text = text
+        self.loaded.emit()
+        self._tell()
+
+    def play(self) -> None:
+        """Let the motion run."""
+        if self.player.trajectory is None:
+            return
+        self._before = self._before or self._session.experiment
+        self.player.play()
+        self._clock.start()
+        self._timer.start()
+        self._show()
+        self._tell()
+
+    def pause(self) -> None:
+        """Hold where it is."""
+        self.player.pause()
+        self._rest()
+        self._tell()
+
+    def toggle(self) -> None:
+        """Play or pause."""
+        if self.player.playing:
+            self.pause()
+        else:
+            self.play()
+
+    def stop(self) -> None:
+        """Stop the motion; the arm goes back to its beginning."""
+        self.player.stop()
+        self._show()
+        self._rest()
+        self._tell()
+
+    def seek(self, time: float) -> None:
+        """Show another moment [s]."""
+        if self.player.trajectory is None:
+            return
+        self._before = self._before or self._session.experiment
+        self.player.seek(time)
+        self._show()
+        if not self.player.playing:
+            self._rest()
+        self._tell()
+
+    def step(self, seconds: float) -> None:
+        """Pause and go on, or back, by a little."""
+        self.seek(self.player.time + seconds)
+        self.pause()
+
+    def set_loop(self, on: bool) -> None:
+        """Start again at the end."""
+        self.player.loop = on
+
+    def advance(self, dt: float) -> None:
+        """Let time pass [s]; the timer calls this."""
+        if self.player.advance(dt):
+            self._show()
+        if not self.player.playing:
+            self._rest()
+        self._tell()
+
+    # --- inside ----------------------------------------------------------------------------------------------------
+
+    def _on_tick(self) -> None:
+        self.advance(min(self._clock.restart() / 1000.0, _LONGEST_STEP))
+
+    def _show(self) -> None:
+        q = self.player.q
+        if q is None:
+            return
+        self._showing = True
+        try:
+            self._session.show_moment(q)
+        finally:
+            self._showing = False
+        self.moved.emit(self.player.time)
+
+    def _rest(self) -> None:
+        """The motion is over or held: remember it as one step."""
+        self._timer.stop()
+        if self._before is not None:
+            before, self._before = self._before, None
+            self._showing = True
+            try:
+                self._session.keep_motion(before, self._text)
+            finally:
+                self._showing = False
+
+    def _tell(self) -> None:
+        if self.player.state != self._said_state:
+            self._said_state = self.player.state
+            self.state_changed.emit(self._said_state)
+
+    def _on_changed(self, before: Experiment, after: Experiment) -> None:
+        """Somebody else moved the arm: hold the motion; another arm: take the trajectory out."""
+        if self._showing:
+            return
+        self._before = None
+        self._timer.stop()
+        if after.robot is not before.robot:
+            self.load(None, "")
+        elif self.player.playing:
+            self.player.pause()
+        self._tell()
+
+    def _on_preference(self, name: str) -> None:
+        if name == "speed":
+            self.player.speed = self._preferences["speed"]

@@ -1,0 +1,384 @@
+"""The left panel: which arm, what each joint is, Plot, Home, Zero, Random, and poses worth remembering."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QGridLayout,
+    QHBoxLayout,
+    QInputDialog,
+    QLabel,
+    QSizePolicy,
+    QSlider,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rvsim.experiment import Experiment, random_pose
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import display, format_number, joint_kind
+from rvsim.gui.quantity_box import QuantityBox
+from rvsim.gui.session import Session
+from rvsim.gui.theme import set_role
+from rvsim.gui.widgets import button, combo, scrolled
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+_IGNORE_HINT = "Switch “Ignore limits” on to go there."
+_SLIDER_STEPS = {"angle": math.radians(0.1), "length": 1e-4, "unit_length": 1e-3}
+
+
+def slider_range(robot: Robot, joint: int, ignore_limits: bool) -> tuple[float, float]:
+    """The span of a joint's slider [rad, m]: its limits, or a full turn or the arm's size where there are none."""
+    lower, upper = robot.limits[joint]
+    free = 2 * math.pi if robot.joints[joint].continuous else math.pi
+    free = free if robot.joints[joint].revolute else robot.size
+    if ignore_limits or math.isinf(lower):
+        lower = min(lower, -free) if math.isfinite(lower) else -free
+    if ignore_limits or math.isinf(upper):
+        upper = max(upper, free) if math.isfinite(upper) else free
+    return float(lower), float(upper)
+
+
+class JointRow(QWidget):
+    """One joint: name in its colour, value box, slider between its written limits.
+
+    `moved(index, value)` tells a new value [rad, m]; `released()` that a drag or an edit is over.
+    """
+
+    moved = Signal(int, float)
+    released = Signal()
+    refused = Signal(str)
+
+    def __init__(self, robot: Robot, index: int, preferences: Preferences) -> None:
+        super().__init__()
+        self._robot, self._index, self._preferences = robot, index, preferences
+        self._kind = joint_kind(robot, index)
+        joint = robot.joints[index]
+        title = f"J{index + 1} {joint.name}"
+        self.box = QuantityBox(self._kind, preferences, title)
+        self.box.setObjectName(f"joint_value_{index + 1}")
+        self.box.setFixedWidth(104)
+        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.slider.setObjectName(f"joint_slider_{index + 1}")
+        self.slider.setAccessibleName(f"{title}, slider")
+        self._lower, self._upper = QLabel(), QLabel()
+        self._mark = QLabel("outside its limits")
+        self._step = _SLIDER_STEPS[self._kind]
+        self._lay_out(title, joint.color)
+        self.slider.valueChanged.connect(self._on_slider)
+        self.slider.sliderReleased.connect(self.released)
+        self.box.quantity_changed.connect(self._on_box)
+        self.box.editingFinished.connect(self.released)
+        self.box.refused.connect(self.refused)
+
+    def _lay_out(self, title: str, color: str) -> None:
+        chip = QLabel()
+        chip.setFixedSize(10, 10)
+        chip.setStyleSheet(f"background: {color}; border-radius: 5px;")
+        name = QLabel(title)
+        name.setBuddy(self.box)
+        name.setMinimumWidth(0)
+        name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        for label in (self._lower, self._upper):
+            set_role(label, role="muted")
+        set_role(self._mark, level="error")
+        self._mark.hide()
+        self.slider.setStyleSheet(_slider_style(color))
+        top = QHBoxLayout()
+        top.setSpacing(8)
+        top.addWidget(chip)
+        top.addWidget(name, 1)
+        top.addWidget(self._mark)
+        top.addWidget(self.box)
+        bottom = QHBoxLayout()
+        bottom.setSpacing(6)
+        bottom.addWidget(self._lower)
+        bottom.addWidget(self.slider, 1)
+        bottom.addWidget(self._upper)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(2)
+        column.addLayout(top)
+        column.addLayout(bottom)
+
+    def show_limits(self, ignore_limits: bool) -> None:
+        """Write the limits at the slider's ends and let box and slider go as far as they may."""
+        lower, upper = self._robot.limits[self._index]
+        self.box.set_range(*(-math.inf, math.inf) if ignore_limits else (lower, upper), hint=_IGNORE_HINT)
+        shown = display(self._kind, self._preferences)
+        ends = slider_range(self._robot, self._index, ignore_limits)
+        for label, limit, end in zip((self._lower, self._upper), (lower, upper), ends, strict=True):
+            free = math.isinf(limit)
+            decimals = 0 if self._kind == "angle" and shown.factor != 1.0 else shown.decimals
+            label.setText(format_number((end if free else limit) * shown.factor, decimals))
+            label.setToolTip("No limit" if free else f"Limit: {limit * shown.factor:g}{shown.suffix}")
+        with QSignalBlocker(self.slider):
+            self.slider.setRange(math.ceil(ends[0] / self._step - 1e-6), math.floor(ends[1] / self._step + 1e-6))
+            self.slider.setSingleStep(round(shown.step / shown.factor / self._step) or 1)
+            self.slider.setPageStep(10 * self.slider.singleStep())
+
+    def show_value(self, value: float) -> None:
+        """Show a joint value [rad, m], silently."""
+        self.box.set_quantity(value)
+        with QSignalBlocker(self.slider):
+            self.slider.setValue(round(value / self._step))
+        lower, upper = self._robot.limits[self._index]
+        outside = not lower - 1e-9 <= value <= upper + 1e-9
+        if outside == self._mark.isHidden():
+            self._mark.setVisible(outside)
+            set_role(self.box, outside=outside)
+
+    def _on_slider(self, position: int) -> None:
+        lower, upper = self.box.limits
+        self.moved.emit(self._index, min(max(position * self._step, lower), upper))
+        if not self.slider.isSliderDown():
+            self.released.emit()
+
+    def _on_box(self, value: float) -> None:
+        self.moved.emit(self._index, value)
+
+
+def _slider_style(color: str) -> str:
+    handle = QColor(color).darker(115).name()
+    return (
+        "QSlider { min-height: 20px; }"
+        f"QSlider::groove:horizontal {{ height: 4px; border-radius: 2px; background: palette(mid); }}"
+        f"QSlider::sub-page:horizontal {{ height: 4px; border-radius: 2px; background: {color}; }}"
+        f"QSlider::handle:horizontal {{ width: 14px; height: 14px; margin: -5px 0; border-radius: 7px;"
+        f" background: {color}; border: 1px solid {handle}; }}"
+        "QSlider::handle:horizontal:focus { border: 2px solid palette(text); }"
+    )
+
+
+class JointsPanel(QWidget):
+    """What the arm is now. `robot_wanted(name)` tells that another arm has been chosen."""
+
+    robot_wanted = Signal(str)
+
+    def __init__(self, session: Session, preferences: Preferences, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._preferences = session, preferences
+        self._rows: list[JointRow] = []
+        self._typed: FloatArray = session.q  # what the boxes show; the arm follows at once when live, else at Plot
+        self.robots = combo("robot_selector", "Arm")
+        self.robots.activated.connect(lambda _: self.robot_wanted.emit(self.robots.currentData()))
+        self._joints = QWidget()
+        self._joints_column = QVBoxLayout(self._joints)
+        self._joints_column.setContentsMargins(12, 4, 12, 4)
+        self._joints_column.setSpacing(8)
+        self._make_controls()
+        self._lay_out()
+        session.changed.connect(self._on_changed)
+        preferences.changed.connect(self._on_preference)
+        self._make_rows()
+
+    # --- construction ----------------------------------------------------------------------------------------------
+
+    def _make_controls(self) -> None:
+        self.plot = button("plot_button", "Plot", "Draw the arm at the typed values", self.plot_typed, primary=True)
+        self.home = button("home_button", "Home", "The arm's home pose (Ctrl+H)", self.go_home)
+        self.zero = button("zero_button", "Zero", "All joint variables 0", self.go_zero)
+        self.random = button("random_button", "Random", "Any pose within the limits", self.go_random)
+        self.live = QCheckBox("Live")
+        self.live.setObjectName("live_switch")
+        self.live.setToolTip("The arm follows each value at once; off: press Plot")
+        self.live.setChecked(self._preferences["live"])
+        self.live.toggled.connect(lambda on: self._preferences.set("live", on))
+        self.ignore = QCheckBox("Ignore limits")
+        self.ignore.setObjectName("ignore_limits_switch")
+        self.ignore.setToolTip("Let joints go beyond their limits; such joints are marked")
+        self.ignore.toggled.connect(self._on_ignore)
+        self.poses = combo("pose_selector", "Saved poses")
+        self.poses.activated.connect(self._recall)
+        self.save_pose = QToolButton(text="Save…", objectName="save_pose_button", toolTip="Save this pose under a name")
+        self.save_pose.clicked.connect(self.ask_pose_name)
+        self.forget_pose = QToolButton(
+            text="Forget", objectName="forget_pose_button", toolTip="Forget the pose chosen in the list"
+        )
+        self.forget_pose.clicked.connect(self._forget)
+
+    def _lay_out(self) -> None:
+        scroll = scrolled(self._joints)
+        buttons = QGridLayout()
+        buttons.setSpacing(6)
+        for column, each in enumerate((self.plot, self.home, self.zero, self.random)):
+            buttons.addWidget(each, 0, column)
+        switches = QHBoxLayout()
+        switches.addWidget(self.live)
+        switches.addWidget(self.ignore)
+        switches.addStretch(1)
+        poses = QHBoxLayout()
+        poses.setSpacing(6)
+        poses.addWidget(self.poses, 1)
+        poses.addWidget(self.save_pose)
+        poses.addWidget(self.forget_pose)
+        below = QVBoxLayout()
+        below.setContentsMargins(12, 4, 12, 8)
+        below.setSpacing(8)
+        below.addLayout(buttons)
+        below.addLayout(switches)
+        below.addLayout(poses)
+        above = QVBoxLayout()
+        above.setContentsMargins(12, 4, 12, 4)
+        above.addWidget(self.robots)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(above)
+        column.addWidget(scroll, 1)
+        column.addLayout(below)
+
+    def show_robots(self, titles: dict[str, str], current: str) -> None:
+        """Offer these arms: name → title."""
+        with QSignalBlocker(self.robots):
+            self.robots.clear()
+            for name, title in titles.items():
+                self.robots.addItem(title, name)
+            self.robots.setCurrentIndex(self.robots.findData(current))
+
+    def _make_rows(self) -> None:
+        for row in self._rows:
+            self._joints_column.removeWidget(row)
+            row.deleteLater()
+        while self._joints_column.count():
+            self._joints_column.takeAt(0)
+        robot = self._session.robot
+        self._rows = [JointRow(robot, index, self._preferences) for index in range(robot.dof)]
+        for row in self._rows:
+            self._joints_column.addWidget(row)
+            row.moved.connect(self._on_moved)
+            row.released.connect(self._session.end_stroke)
+            row.refused.connect(self._on_refused)
+        self._joints_column.addStretch(1)
+        self._chain_tabs()
+        self._show_limits()
+        self._show_pose()
+        self._show_poses()
+
+    def _chain_tabs(self) -> None:
+        chain = [self.robots, *(w for row in self._rows for w in (row.box, row.slider)), self.plot, self.home]
+        for first, second in pairwise(chain):
+            QWidget.setTabOrder(first, second)
+
+    # --- the session says ------------------------------------------------------------------------------------------
+
+    def _on_changed(self, before: Experiment, after: Experiment) -> None:
+        if after.robot is not before.robot:
+            self._typed = after.q
+            with QSignalBlocker(self.robots):
+                self.robots.setCurrentIndex(self.robots.findData(after.robot.name))
+            self._make_rows()
+            return
+        if after.ignore_limits != before.ignore_limits:
+            self._show_limits()
+        if after.q is not before.q:
+            self._typed = after.q
+            self._show_pose()
+        if after.poses is not before.poses:
+            self._show_poses()
+
+    def _on_preference(self, name: str) -> None:
+        if name in ("angle_unit", "length_unit", "extra_decimals"):
+            self._show_limits()
+        if name == "live":
+            self.live.setChecked(self._preferences["live"])
+
+    def _show_limits(self) -> None:
+        ignored = self._session.experiment.ignore_limits
+        with QSignalBlocker(self.ignore):
+            self.ignore.setChecked(ignored)
+        for row in self._rows:
+            row.show_limits(ignored)
+
+    def _show_pose(self) -> None:
+        for row, value in zip(self._rows, self._typed, strict=True):
+            row.show_value(float(value))
+
+    def _show_poses(self) -> None:
+        poses = self._session.experiment.poses
+        with QSignalBlocker(self.poses):
+            self.poses.clear()
+            self.poses.addItem("Poses…" if poses else "No saved pose yet")
+            for pose in poses:
+                self.poses.addItem(pose.name)
+        self.poses.setEnabled(bool(poses))
+        self.forget_pose.setEnabled(bool(poses))
+
+    # --- the user says ---------------------------------------------------------------------------------------------
+
+    def _on_moved(self, index: int, value: float) -> None:
+        typed = np.array(self._typed)
+        typed[index] = value
+        self._typed = typed
+        if self._preferences["live"]:
+            name = self._session.robot.joint_names[index]
+            self._session.edit(f"Move {name}", self._session.experiment.at(typed), merge=f"joint {index}")
+        else:
+            self._show_pose()
+            self._session.say("Typed, not drawn yet: press Plot.")
+
+    def _on_refused(self, sentence: str) -> None:
+        if sentence:
+            self._session.say(sentence, "warning")
+
+    def _on_ignore(self, on: bool) -> None:
+        text = "Ignore limits" if on else "Respect limits"
+        self._session.edit(text, replace(self._session.experiment, ignore_limits=on))
+
+    def plot_typed(self) -> None:
+        """Draw the arm at the typed values."""
+        if not np.array_equal(self._typed, self._session.q) and not self._session.move_to(self._typed, "Plot"):
+            return
+        names = ", ".join(
+            f"{format_number(value * display(joint_kind(self._session.robot, i), self._preferences).factor, 1)}"
+            for i, value in enumerate(self._typed)
+        )
+        self._session.say(f"Plotted the {self._session.robot.title} at ({names}).")
+
+    def go_home(self) -> None:
+        """Go to the arm's home pose."""
+        if self._session.move_to(self._session.robot.home, "Home"):
+            self._session.say(f"The {self._session.robot.title} is at home.")
+
+    def go_zero(self) -> None:
+        """Go to q = 0, if the limits allow it."""
+        self._session.move_to(np.zeros(self._session.robot.dof), "Zero")
+
+    def go_random(self) -> None:
+        """Go to any pose within the limits."""
+        seed = int(np.random.SeedSequence().entropy or 0)
+        self._session.move_to(random_pose(self._session.robot, seed), "Random pose")
+
+    def ask_pose_name(self) -> None:
+        """Save the present pose under a name that the user types."""
+        count = len(self._session.experiment.poses) + 1
+        name, given = QInputDialog.getText(self, "Save pose", "Name of this pose:", text=f"pose {count}")
+        if given and name.strip():
+            self.save_pose_as(name.strip())
+
+    def save_pose_as(self, name: str) -> None:
+        """Save the present pose under that name."""
+        self._session.edit(f"Save pose {name}", self._session.experiment.with_pose(name))
+        self._session.say(f"Saved as “{name}”.")
+
+    def _recall(self, row: int) -> None:
+        if row == 0:
+            return
+        pose = self._session.experiment.poses[row - 1]
+        self._session.move_to(pose.q, f"Pose {pose.name}")
+
+    def _forget(self) -> None:
+        name = self.poses.currentText()
+        if self.poses.currentIndex() > 0:
+            self._session.edit(f"Forget pose {name}", self._session.experiment.without_pose(name))
+        else:
+            self._session.say("Choose the pose to forget in the list first.")

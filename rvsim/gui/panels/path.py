@@ -1,0 +1,285 @@
+"""The Path panel: the line between two points, the named trajectories, and what came of tracking them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtWidgets import (
+    QGridLayout,
+    QGroupBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rvsim.experiment import Experiment, LineTask, TrajectoryTask
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import format_quantity, format_scientific, length_kind
+from rvsim.gui.quantity_box import QuantityBox
+from rvsim.gui.session import Session
+from rvsim.gui.theme import set_role
+from rvsim.gui.tracker import PathTracker, Repair
+from rvsim.gui.widgets import button, column_of, combo, form, scrolled, select
+from rvsim.lab.named_paths import line_presets, trajectory_choices
+from rvsim.lab.sentences import tracking_sentence
+from rvsim.motion import Tracking
+
+_LINE_ORIENTATIONS = {"down": "Tool straight down", "free": "Tool tilts as it likes", "keep": "Tool as it is now"}
+_PATH_ORIENTATIONS = {"source": "As in the source", **_LINE_ORIENTATIONS}
+_AXES = ("x", "y", "z")
+
+
+class LineSection(QGroupBox):
+    """Start, end, step, the tool's orientation, and Track line."""
+
+    def __init__(self, session: Session, preferences: Preferences, tracker: PathTracker) -> None:
+        super().__init__("Line")
+        self._session = session
+        self.presets = combo("line_preset", "Line presets")
+        self.presets.activated.connect(self._on_preset)
+        self.boxes = {end: [self._box(end, axis, preferences) for axis in _AXES] for end in ("start", "end")}
+        self.resolution = QuantityBox("number", preferences, "Step as a fraction of the line")
+        self.resolution.setObjectName("line_resolution")
+        self.resolution.set_range(0.001, 1.0, "1 gives the two ends alone, 0.001 a thousand pieces.")
+        self.resolution.quantity_changed.connect(lambda value: self._edit("line step", resolution=value))
+        self.resolution.refused.connect(lambda text: text and session.say(text, "warning"))
+        self.samples = QLabel()
+        set_role(self.samples, role="muted")
+        self.orientation = combo("line_orientation", "Tool orientation along the line", _LINE_ORIENTATIONS)
+        self.orientation.activated.connect(
+            lambda _: self._edit("line orientation", orientation=self.orientation.currentData())
+        )
+        tip = "Solve the line and move the tool along it (Ctrl+L)"
+        self.button = button("track_line_button", "Track line", tip, tracker.track_line, primary=True)
+        self._lay_out()
+
+    def _box(self, end: str, axis: str, preferences: Preferences) -> QuantityBox:
+        box = QuantityBox("length", preferences, f"Line {end} {axis}")
+        box.setObjectName(f"line_{end}_{axis}")
+        box.setMinimumWidth(84)
+        box.quantity_changed.connect(lambda _: self._on_point(end))
+        box.refused.connect(lambda text: text and self._session.say(text, "warning"))
+        box.editingFinished.connect(self._session.end_stroke)
+        return box
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout()
+        grid.setSpacing(6)
+        for column, axis in enumerate(_AXES):
+            label = QLabel(axis)
+            set_role(label, role="muted")
+            grid.addWidget(label, 0, column + 1, Qt.AlignmentFlag.AlignHCenter)
+        for row, end in enumerate(("start", "end"), 1):
+            grid.addWidget(QLabel(end.capitalize()), row, 0)
+            for column, box in enumerate(self.boxes[end]):
+                grid.addWidget(box, row, column + 1)
+        step = QHBoxLayout()
+        step.addWidget(self.resolution)
+        step.addWidget(self.samples, 1)
+        rows = form()
+        rows.addRow("Preset", self.presets)
+        rows.addRow(grid)
+        rows.addRow("Step", step)
+        rows.addRow("Tool", self.orientation)
+        rows.addRow(self.button)
+        self.setLayout(rows)
+
+    def show_task(self, experiment: Experiment) -> None:
+        """Show the line of the experiment."""
+        line, kind = experiment.line, length_kind(experiment.robot)
+        for end, point in (("start", line.start), ("end", line.end)):
+            for box, value in zip(self.boxes[end], point, strict=True):
+                box.set_kind(kind)
+                box.set_quantity(float(value))
+        self.resolution.set_quantity(line.resolution)
+        self.samples.setText(f"of the line: {line.samples} points")
+        select(self.orientation, line.orientation)
+        self._show_presets(experiment)
+
+    def _show_presets(self, experiment: Experiment) -> None:
+        presets = line_presets(experiment.robot)
+        with QSignalBlocker(self.presets):
+            self.presets.clear()
+            self.presets.addItem("Your own", None)
+            for preset in presets:
+                self.presets.addItem(preset.title, preset)
+            same = [i for i, preset in enumerate(presets, 1) if _same_line(preset, experiment.line)]
+            self.presets.setCurrentIndex(same[0] if same else 0)
+
+    def _on_preset(self, index: int) -> None:
+        preset = self.presets.itemData(index)
+        if preset is not None:
+            line = LineTask(preset.start, preset.end, preset.resolution, preset.orientation)
+            self._session.edit(f"Line: {preset.title}", replace(self._session.experiment, line=line))
+
+    def _on_point(self, end: str) -> None:
+        self._edit(f"line {end}", **{end: [box.quantity for box in self.boxes[end]]})
+
+    def _edit(self, what: str, **changes: object) -> None:
+        experiment = self._session.experiment
+        line = replace(experiment.line, **changes)  # type: ignore[arg-type]
+        self._session.edit(f"Edit {what}", replace(experiment, line=line), merge=what)
+
+
+class TrajectorySection(QGroupBox):
+    """A named path, what is known about it, and Track trajectory."""
+
+    def __init__(self, session: Session, preferences: Preferences, tracker: PathTracker) -> None:
+        super().__init__("Trajectory")
+        self._session = session
+        self.selector = combo("trajectory_selector", "Trajectory")
+        self.selector.activated.connect(self._on_chosen)
+        self.orientation = combo("trajectory_orientation", "Tool orientation along the trajectory", _PATH_ORIENTATIONS)
+        self.orientation.activated.connect(lambda _: self._edit(orientation=self.orientation.currentData()))
+        self.height = QuantityBox("length", preferences, "Height of the drawing plane")
+        self.height.setObjectName("trajectory_height")
+        self.height.quantity_changed.connect(lambda value: self._edit(height=value))
+        self.height_label = QLabel("Height")
+        self.notes = QLabel(wordWrap=True)
+        set_role(self.notes, role="muted")
+        tip = "Solve the trajectory and move the tool along it (Ctrl+T)"
+        self.button = button("track_trajectory_button", "Track trajectory", tip, tracker.track_trajectory, primary=True)
+        rows = form()
+        rows.addRow(self.selector)
+        rows.addRow(self.notes)
+        rows.addRow("Tool", self.orientation)
+        rows.addRow(self.height_label, self.height)
+        rows.addRow(self.button)
+        self.setLayout(rows)
+
+    def show_task(self, experiment: Experiment) -> None:
+        """Show the trajectory of the experiment."""
+        choices = trajectory_choices(experiment.robot)
+        task = experiment.trajectory
+        with QSignalBlocker(self.selector):
+            self.selector.clear()
+            for choice in choices:
+                self.selector.addItem(choice.title, choice.name)
+            self.selector.setCurrentIndex(self.selector.findData(task.name))
+        chosen = next((choice for choice in choices if choice.name == task.name), None)
+        self.notes.setText(chosen.notes if chosen else "No trajectory for this arm yet.")
+        self.button.setEnabled(chosen is not None)
+        select(self.orientation, task.orientation)
+        self.height.set_kind(length_kind(experiment.robot))
+        self.height.set_quantity(task.height)
+        for widget in (self.height, self.height_label):
+            widget.setVisible(chosen is not None and chosen.needs_height)
+
+    def _on_chosen(self, index: int) -> None:
+        task = TrajectoryTask(self.selector.itemData(index))
+        experiment = self._session.experiment
+        self._session.edit(f"Trajectory: {self.selector.itemText(index)}", replace(experiment, trajectory=task))
+
+    def _edit(self, **changes: object) -> None:
+        experiment = self._session.experiment
+        task = replace(experiment.trajectory, **changes)  # type: ignore[arg-type]
+        self._session.edit("Edit trajectory", replace(experiment, trajectory=task), merge="trajectory")
+
+
+class ResultSection(QGroupBox):
+    """What came of it: how many points, how exact, how fast; and what could be done about missed ones."""
+
+    def __init__(self, session: Session, preferences: Preferences, tracker: PathTracker) -> None:
+        super().__init__("Result")
+        self._session, self._preferences, self._tracker = session, preferences, tracker
+        self.reached, self.rms, self.largest, self.time = QLabel(), QLabel(), QLabel(), QLabel()
+        self.rms.setObjectName("rms_label")
+        self.reached.setObjectName("reached_label")
+        self.sentence = QLabel(wordWrap=True)
+        self.sentence.setObjectName("tracking_sentence")
+        self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._repairs = QHBoxLayout()
+        self._repairs.setSpacing(6)
+        rows = form()
+        rows.addRow("Reached", self.reached)
+        rows.addRow("RMS", self.rms)
+        rows.addRow("Largest", self.largest)
+        rows.addRow("Solved in", self.time)
+        rows.addRow(self.sentence)
+        rows.addRow(self._repairs)
+        self.setLayout(rows)
+        self.show_tracking(None)
+
+    def show_tracking(self, tracking: Tracking | None) -> None:
+        """Show the result, or what to do to get one."""
+        while self._repairs.count():
+            self._repairs.takeAt(0).widget().deleteLater()
+        if tracking is None:
+            for label in (self.reached, self.rms, self.largest, self.time):
+                label.setText("\u2013")
+            self.sentence.setText("Nothing tracked yet. Track line moves the tool from start to end.")
+            set_role(self.sentence, level="")
+            return
+        self._show_numbers(tracking)
+        self.sentence.setText(tracking_sentence(tracking))
+        set_role(self.sentence, level="good" if tracking.complete else "warning")
+        for repair in self._tracker.repairs():
+            self._repairs.addWidget(self._repair_button(repair))
+        self._repairs.addStretch(1)
+
+    def _show_numbers(self, tracking: Tracking) -> None:
+        of_reached = "" if tracking.complete else "  (of the reached points)"
+        self.reached.setText(f"{tracking.reached_count} of {tracking.samples} points")
+        self.rms.setText(_deviation(tracking.rms, tracking) + of_reached)
+        self.largest.setText(_deviation(tracking.max_deviation, tracking))
+        self.time.setText(f"{tracking.solve_seconds * 1e3:.2f} ms  ({tracking.seconds_per_point * 1e6:.0f} µs a point)")
+
+    def _repair_button(self, repair: Repair) -> QPushButton:
+        name = "repair_" + repair.title.lower().replace(" ", "_")
+        return button(name, repair.title, repair.tip, lambda: self._tracker.apply(repair))
+
+
+class PathPanel(QWidget):
+    """Line, trajectory and result, one below the other."""
+
+    def __init__(
+        self, session: Session, preferences: Preferences, tracker: PathTracker, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.line = LineSection(session, preferences, tracker)
+        self.trajectory = TrajectorySection(session, preferences, tracker)
+        self.result = ResultSection(session, preferences, tracker)
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(12, 0, 12, 8)
+        column.setSpacing(4)
+        for section in (self.line, self.trajectory, self.result):
+            column.addWidget(section)
+        column.addStretch(1)
+        column_of(self, scrolled(inside))
+        session.changed.connect(self._on_changed)
+        session.tracking_changed.connect(self.result.show_tracking)
+        self._show(session.experiment)
+
+    def _on_changed(self, before: Experiment, after: Experiment) -> None:
+        if (
+            after.robot is not before.robot
+            or after.line is not before.line
+            or after.trajectory is not before.trajectory
+        ):
+            self._show(after)
+
+    def _show(self, experiment: Experiment) -> None:
+        self.line.show_task(experiment)
+        self.trajectory.show_task(experiment)
+
+
+def _deviation(value: float | None, tracking: Tracking) -> str:
+    if value is None:
+        return "\u2013  (no point was reached)"
+    unit = " mm" if tracking.robot.length_unit == "millimetre" else " unit"
+    factor = 1e3 if unit == " mm" else 1.0
+    return format_scientific(value * factor) + unit
+
+
+def _same_line(preset: object, line: LineTask) -> bool:
+    return (
+        np.allclose(preset.start, line.start, atol=1e-12)  # type: ignore[attr-defined]
+        and np.allclose(preset.end, line.end, atol=1e-12)  # type: ignore[attr-defined]
+        and abs(preset.resolution - line.resolution) < 1e-12  # type: ignore[attr-defined]
+    )

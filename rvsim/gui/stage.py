@@ -1,0 +1,107 @@
+"""Turns the present moment into a scene: arm, floor, path, trail. The scene view is told; it asks nobody."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QObject
+
+from rvsim.experiment import Experiment
+from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.scene_view import SceneView
+from rvsim.gui.session import Session
+from rvsim.kinematics import forward_kinematics
+from rvsim.motion import Tracking, Trajectory
+from rvsim.robot.arrays import FloatArray
+from rvsim.scene.build import SceneOptions, compose
+from rvsim.scene.palette import DARK, LIGHT, ScenePalette
+from rvsim.scene.paths import path_items, trail_items
+from rvsim.scene.primitives import Item
+
+_TRAIL_SAMPLES = 1500
+_SCENE_SETTINGS = {"theme", "look", "show_frames", "show_labels", "show_floor", "show_trail"}
+
+
+class Stage(QObject):
+    """Keeps the scene view true to session, motion and preferences."""
+
+    def __init__(
+        self,
+        session: Session,
+        motion: MotionControl,
+        preferences: Preferences,
+        view: SceneView,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._motion, self._preferences, self._view = session, motion, preferences, view
+        self._path: tuple[Item, ...] = ()
+        self._trail = np.empty((0, 3))
+        self._trail_times = np.empty(0)
+        session.changed.connect(self._on_changed)
+        session.tracking_changed.connect(self._on_tracking)
+        motion.loaded.connect(self._on_loaded)
+        preferences.changed.connect(self._on_preference)
+        self.show()
+
+    @property
+    def palette(self) -> ScenePalette:
+        """The scene's colours under the present theme."""
+        return DARK if self._preferences["theme"] == "dark" else LIGHT
+
+    def show(self) -> None:
+        """Compose the present moment and hand it to the view."""
+        options = SceneOptions(
+            look=self._preferences["look"],
+            frames=self._preferences["show_frames"],
+            labels=self._preferences["show_labels"],
+            floor=self._preferences["show_floor"],
+        )
+        extras = (*self._path, *self._trail_now())
+        self._view.set_scene(compose(self._session.robot, self._session.q, self.palette, options, extras))
+
+    def _trail_now(self) -> tuple[Item, ...]:
+        """What the tool has drawn up to the present moment."""
+        if not self._preferences["show_trail"] or not len(self._trail):
+            return ()
+        done = int(np.searchsorted(self._trail_times, self._motion.player.time + 1e-9))
+        return trail_items(self._trail[:done], self.palette)
+
+    # --- what changed ----------------------------------------------------------------------------------------------
+
+    def _on_changed(self, before: Experiment, after: Experiment) -> None:
+        if after.robot is not before.robot:
+            self.show()
+            if after.robot.name != before.robot.name:
+                self._view.fit()
+        elif after.q is not before.q:
+            self.show()
+
+    def _on_tracking(self, tracking: Tracking | None) -> None:
+        self._path = self._path_items(tracking)
+        self.show()
+
+    def _on_loaded(self) -> None:
+        self._trail_times, self._trail = self._sampled_trail()
+        self.show()
+
+    def _on_preference(self, name: str) -> None:
+        if name in _SCENE_SETTINGS:
+            self._path = self._path_items(self._session.tracking)
+            self.show()
+
+    # --- pieces ----------------------------------------------------------------------------------------------------
+
+    def _path_items(self, tracking: Tracking | None) -> tuple[Item, ...]:
+        if tracking is None:
+            return ()
+        return path_items(tracking.path.points, tracking.reached, np.empty((0, 3)), self.palette)
+
+    def _sampled_trail(self) -> tuple[FloatArray, FloatArray]:
+        """Times and tool points of the whole motion along the path; the way to it draws nothing."""
+        trajectory = self._motion.player.trajectory
+        if not isinstance(trajectory, Trajectory):
+            return np.empty(0), np.empty((0, 3))
+        times = np.linspace(trajectory.path_start, trajectory.duration, _TRAIL_SAMPLES)
+        points = forward_kinematics(self._session.robot, trajectory.q(times))[..., :3, 3]
+        return times, points

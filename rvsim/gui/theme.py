@@ -1,0 +1,192 @@
+"""Light and dark: palette, style sheet and fonts. One accent colour; meaning is never colour alone."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
+from PySide6.QtWidgets import QApplication
+
+from rvsim.resources import resource
+
+
+class Theme(NamedTuple):
+    """The colours of the window, "#rrggbb"; every text has a contrast of at least 4.5:1 on its ground."""
+
+    window: str
+    base: str
+    raised: str
+    text: str
+    muted: str
+    border: str
+    accent: str
+    on_accent: str
+    good: str
+    warning: str
+    error: str
+    dark: bool
+
+
+THEMES = {
+    "light": Theme(
+        window="#f4f6f8",
+        base="#ffffff",
+        raised="#ffffff",
+        text="#1a2129",
+        muted="#55616d",
+        border="#cfd6dd",
+        accent="#0b5fc0",
+        on_accent="#ffffff",
+        good="#0b7a3e",
+        warning="#8a5a00",
+        error="#b42318",
+        dark=False,
+    ),
+    "dark": Theme(
+        window="#1b1f24",
+        base="#14171b",
+        raised="#262b32",
+        text="#e7ebef",
+        muted="#9fabb7",
+        border="#3a424c",
+        accent="#58a6ff",
+        on_accent="#0c1622",
+        good="#56d18a",
+        warning="#f0b84a",
+        error="#ff8a7a",
+        dark=True,
+    ),
+}
+
+_PRESENTATION_SCALE = 1.4
+
+_STYLE = """
+QMainWindow, QDialog {{ background: {window}; }}
+QMainWindow::separator {{ background: {window}; width: 6px; height: 6px; }}
+QMainWindow::separator:hover {{ background: {accent}; }}
+QToolTip {{ background: {raised}; color: {text}; border: 1px solid {border}; padding: 4px; }}
+QMenuBar {{ background: {window}; }}
+QToolBar {{ background: {window}; border: none; spacing: 4px; padding: 4px 8px; }}
+QToolBar::separator {{ background: {border}; width: 1px; margin: 4px 6px; }}
+QToolButton {{ border: 1px solid transparent; border-radius: 5px; padding: 4px 8px; }}
+QToolButton:hover {{ background: {raised}; border-color: {border}; }}
+QToolButton:checked, QToolButton:pressed {{ background: {raised}; border-color: {accent}; }}
+QToolButton:focus {{ border-color: {accent}; }}
+QPushButton {{ background: {raised}; border: 1px solid {border}; border-radius: 5px; padding: 5px 12px; }}
+QPushButton:hover {{ border-color: {accent}; }}
+QPushButton:pressed, QPushButton:checked {{ background: {window}; border-color: {accent}; }}
+QPushButton:focus {{ border-color: {accent}; }}
+QPushButton:disabled {{ color: {muted}; background: {window}; }}
+QPushButton[primary="true"] {{ background: {accent}; color: {on_accent}; border-color: {accent}; font-weight: 600; }}
+QPushButton[primary="true"]:focus {{ border: 2px solid {text}; padding: 4px 11px; }}
+QPushButton[primary="true"]:disabled {{ background: {border}; border-color: {border}; color: {muted}; }}
+QDockWidget {{ font-weight: 600; }}
+QDockWidget::title {{ background: {window}; padding: 6px 8px; }}
+QDockWidget > QWidget {{ font-weight: 400; }}
+QTabBar::tab {{ background: transparent; padding: 6px 10px; border: none; border-bottom: 2px solid transparent;
+    color: {muted}; }}
+QTabBar::tab:selected {{ color: {text}; border-bottom-color: {accent}; }}
+QTabBar::tab:hover {{ color: {text}; }}
+QTabWidget::pane {{ border: none; border-top: 1px solid {border}; }}
+QGroupBox {{ border: none; margin-top: 18px; font-weight: 600; }}
+QGroupBox::title {{ subcontrol-origin: margin; left: 0; padding: 0; }}
+QAbstractSpinBox, QLineEdit, QComboBox {{
+    background: {base}; border: 1px solid {border}; border-radius: 5px; padding: 3px 6px; min-height: 20px;
+    selection-background-color: {accent}; selection-color: {on_accent};
+}}
+QAbstractSpinBox:focus, QLineEdit:focus, QComboBox:focus {{ border-color: {accent}; }}
+QAbstractSpinBox:read-only {{ background: {window}; }}
+QAbstractSpinBox[outside="true"] {{ border: 2px dashed {error}; }}
+QAbstractSpinBox::up-button, QAbstractSpinBox::down-button {{ width: 0; border: none; }}
+QComboBox::drop-down {{ border: none; width: 20px; }}
+QComboBox QAbstractItemView {{ background: {raised}; border: 1px solid {border}; selection-background-color: {accent};
+    selection-color: {on_accent}; }}
+QTableView, QPlainTextEdit, QTextBrowser {{ background: {base}; border: 1px solid {border}; border-radius: 5px;
+    gridline-color: {border}; selection-background-color: {accent}; selection-color: {on_accent}; }}
+QHeaderView::section {{ background: {window}; color: {muted}; border: none; border-bottom: 1px solid {border};
+    padding: 4px 6px; }}
+QScrollArea {{ border: none; background: transparent; }}
+QStatusBar {{ background: {window}; border-top: 1px solid {border}; }}
+QStatusBar::item {{ border: none; }}
+QLabel[role="muted"] {{ color: {muted}; }}
+QLabel[role="title"] {{ font-weight: 600; }}
+QLabel[level="warning"] {{ color: {warning}; }}
+QLabel[level="error"] {{ color: {error}; }}
+QLabel[level="good"] {{ color: {good}; }}
+"""
+
+
+def apply_theme(app: QApplication, name: str, *, presentation: bool = False) -> Theme:
+    """Dress the whole application."""
+    theme = THEMES[name]
+    app.setStyle("Fusion")
+    app.setPalette(_palette(theme))
+    app.setFont(_font(app, presentation))
+    app.setStyleSheet(_STYLE.format(**theme._asdict()))
+    return theme
+
+
+def set_role(widget: object, **properties: object) -> None:
+    """Set the properties that the style sheet looks at, and let it look again."""
+    from PySide6.QtWidgets import QWidget
+
+    assert isinstance(widget, QWidget)
+    if all(widget.property(name) == value for name, value in properties.items()):
+        return
+    for name, value in properties.items():
+        widget.setProperty(name, value)
+    widget.style().unpolish(widget)
+    widget.style().polish(widget)
+
+
+def load_fonts() -> None:
+    """Make the fonts in resources/fonts known."""
+    for file in sorted(resource("fonts").glob("*.[ot]tf")):
+        QFontDatabase.addApplicationFont(str(file))
+
+
+def number_font(base: QFont) -> QFont:
+    """The same font with digits of equal width, where the font has them."""
+    font = QFont(base)
+    font.setFeature(QFont.Tag("tnum"), 1)
+    return font
+
+
+def _font(app: QApplication, presentation: bool) -> QFont:
+    natural = app.property("natural_point_size")
+    if natural is None:
+        natural = max(app.font().pointSizeF(), 9.0)
+        app.setProperty("natural_point_size", natural)
+    font = number_font(app.font())
+    font.setPointSizeF(float(natural) * (_PRESENTATION_SCALE if presentation else 1.0))
+    return font
+
+
+def _palette(theme: Theme) -> QPalette:
+    role = QPalette.ColorRole
+    colors = {
+        role.Window: theme.window,
+        role.WindowText: theme.text,
+        role.Base: theme.base,
+        role.AlternateBase: theme.window,
+        role.Text: theme.text,
+        role.Button: theme.raised,
+        role.ButtonText: theme.text,
+        role.BrightText: theme.error,
+        role.ToolTipBase: theme.raised,
+        role.ToolTipText: theme.text,
+        role.PlaceholderText: theme.muted,
+        role.Highlight: theme.accent,
+        role.HighlightedText: theme.on_accent,
+        role.Link: theme.accent,
+        role.Mid: theme.border,
+        role.Dark: theme.border,
+        role.Light: theme.raised,
+        role.Midlight: theme.border,
+    }
+    palette = QPalette()
+    for color_role, color in colors.items():
+        palette.setColor(color_role, QColor(color))
+    for color_role in (role.WindowText, role.Text, role.ButtonText):
+        palette.setColor(QPalette.ColorGroup.Disabled, color_role, QColor(theme.muted))
+    return palette

@@ -1,0 +1,117 @@
+"""Tracks the line and the chosen trajectory: path → joints → motion, and the repairs that are offered when points are missed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+from PySide6.QtCore import QObject, Signal
+
+from rvsim.errors import RvsimError
+from rvsim.experiment import Experiment, LineTask, TrajectoryTask
+from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.session import Session
+from rvsim.lab.named_paths import line_presets, named_path, trajectory_choices
+from rvsim.lab.sentences import tracking_sentence
+from rvsim.motion import Path, Tracking, track, trajectory_of
+
+
+class Repair(NamedTuple):
+    """What could be done about missed points: what the button says, and the state in which to track again."""
+
+    title: str
+    tip: str
+    experiment: Experiment
+
+
+class PathTracker(QObject):
+    """`tracked(kind)` tells that "line" or "trajectory" has been tracked; the result is `session.tracking`."""
+
+    tracked = Signal(str)
+
+    def __init__(self, session: Session, motion: MotionControl, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._motion = session, motion
+        self.kind = "line"
+
+    def track_line(self) -> None:
+        """Track the line of the panel, and play it."""
+        self._track("line", "Track line")
+
+    def track_trajectory(self) -> None:
+        """Track the chosen trajectory, and play it."""
+        self._track("trajectory", "Track trajectory")
+
+    def repairs(self) -> tuple[Repair, ...]:
+        """What would help with the points that were missed; nothing when none was."""
+        tracking = self._session.tracking
+        if tracking is None or tracking.complete:
+            return ()
+        offers = (self._free_pitch(tracking), self._ignore_limits(tracking), self._placement(tracking))
+        return tuple(offer for offer in offers if offer is not None)
+
+    def apply(self, repair: Repair) -> None:
+        """Change what the repair changes, and track again."""
+        self._session.edit(repair.title, repair.experiment)
+        self._track(self.kind, repair.title)
+
+    # --- inside ----------------------------------------------------------------------------------------------------
+
+    def _track(self, kind: str, text: str) -> None:
+        self.kind = kind
+        experiment = self._session.experiment
+        try:
+            tracking = track(
+                experiment.robot, self._path(experiment), near=experiment.q, ignore_limits=experiment.ignore_limits
+            )
+        except RvsimError as problem:
+            self._session.say(str(problem), "error")
+            return
+        self._motion.load(trajectory_of(tracking, experiment.q), text)
+        self._session.set_tracking(tracking)
+        self._session.say(tracking_sentence(tracking), "info" if tracking.complete else "warning")
+        self.tracked.emit(kind)
+        self._motion.play()
+
+    def _path(self, experiment: Experiment) -> Path:
+        robot, line, task = experiment.robot, experiment.line, experiment.trajectory
+        if self.kind == "line":
+            return named_path(
+                "line", robot, samples=line.samples, orientation=line.orientation, start=line.start, end=line.end,
+                q=experiment.q,
+            )  # fmt: skip
+        return named_path(task.name, robot, orientation=task.orientation, height=task.height, q=experiment.q)
+
+    def _task(self) -> LineTask | TrajectoryTask:
+        experiment = self._session.experiment
+        return experiment.line if self.kind == "line" else experiment.trajectory
+
+    def _with_task(self, **changes: object) -> Experiment:
+        experiment = self._session.experiment
+        if self.kind == "line":
+            return replace(experiment, line=replace(experiment.line, **changes))
+        return replace(experiment, trajectory=replace(experiment.trajectory, **changes))
+
+    def _free_pitch(self, tracking: Tracking) -> Repair | None:
+        reachable = any(missed.kind != "reach" for missed in tracking.unreached)
+        if tracking.path.rotations is None or not reachable:
+            return None
+        tip = "Let the tool tilt as it likes: the position is kept, the orientation is not"
+        return Repair("Free pitch", tip, self._with_task(orientation="free"))
+
+    def _ignore_limits(self, tracking: Tracking) -> Repair | None:
+        if tracking.ignore_limits or not any(missed.kind == "limits" for missed in tracking.unreached):
+            return None
+        tip = "Go beyond the joint limits, as the source's program did; a real arm cannot"
+        return Repair("Ignore limits", tip, replace(self._session.experiment, ignore_limits=True))
+
+    def _placement(self, tracking: Tracking) -> Repair | None:
+        experiment, tip = self._session.experiment, "Move it to a place where the arm reaches all of it"
+        if self.kind == "line":
+            preset = line_presets(tracking.robot)[0]
+            line = LineTask(preset.start, preset.end, preset.resolution, preset.orientation)
+            return Repair("Reachable line", tip, replace(experiment, line=line))
+        drawable = trajectory_choices(tracking.robot)[0].name
+        if drawable == experiment.trajectory.name:
+            return None
+        return Repair("Drawable placement", tip, replace(experiment, trajectory=TrajectoryTask(drawable)))

@@ -1,0 +1,105 @@
+"""Small makers of widgets, so that every panel's boxes and buttons look and behave alike."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from PySide6.QtCore import QSignalBlocker, QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFormLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+
+def combo(object_name: str, title: str, choices: Mapping[str, str] | None = None) -> QComboBox:
+    """A combo box with a name for tests, one for screen readers, and choices data → text."""
+    box = QComboBox()
+    box.setObjectName(object_name)
+    box.setAccessibleName(title)
+    box.setToolTip(title)
+    box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    box.setMinimumContentsLength(8)
+    for data, text in (choices or {}).items():
+        box.addItem(text, data)
+    return box
+
+
+def select(box: QComboBox, data: object) -> None:
+    """Show the entry with that data, silently."""
+    with QSignalBlocker(box):
+        box.setCurrentIndex(box.findData(data))
+
+
+def button(object_name: str, text: str, tip: str, slot: Callable[[], object], *, primary: bool = False) -> QPushButton:
+    """A push button; the primary one of a panel is filled with the accent colour."""
+    made = QPushButton(text)
+    made.setObjectName(object_name)
+    made.setToolTip(tip)
+    made.setAutoDefault(False)
+    made.setProperty("primary", primary)
+    made.clicked.connect(lambda _checked=False: slot())
+    return made
+
+
+def form() -> QFormLayout:
+    """A form as all panels have it."""
+    made = QFormLayout()
+    made.setContentsMargins(0, 6, 0, 0)
+    made.setHorizontalSpacing(10)
+    made.setVerticalSpacing(6)
+    made.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.ExpandingFieldsGrow)
+    return made
+
+
+def scrolled(inside: QWidget) -> QScrollArea:
+    """A column that scrolls when the screen is low, without a frame or a ground of its own."""
+    area = QScrollArea()
+    area.setWidget(inside)
+    area.setWidgetResizable(True)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    inside.setAutoFillBackground(False)
+    area.viewport().setAutoFillBackground(False)
+    return area
+
+
+def column_of(widget: QWidget, *parts: QWidget) -> None:
+    """Put the parts below each other into a widget, filling it."""
+    column = QVBoxLayout(widget)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.setSpacing(0)
+    for part in parts:
+        column.addWidget(part)
+
+
+class ElidedLabel(QLabel):
+    """One line of text that ends in … when the room is short; the whole stands in the tooltip."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.setTextInteractionFlags(Qt.TextInteractionFlag.NoTextInteraction)
+
+    def setText(self, text: str) -> None:
+        """Show a text."""
+        super().setText(text)
+        self.setToolTip(text)
+
+    def minimumSizeHint(self) -> QSize:
+        """It can be as narrow as you like."""
+        return QSize(40, super().minimumSizeHint().height())
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Draw what fits."""
+        painter = QPainter(self)
+        inner = self.contentsRect()
+        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, inner.width())
+        painter.setPen(self.palette().windowText().color())
+        painter.drawText(inner, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
