@@ -76,6 +76,12 @@ class Trajectory:
         """[s]."""
         return float(self.starts[-1])
 
+    @cached_property
+    def path_start(self) -> float:
+        """When the approach is over and the path begins [s]."""
+        approaches = [stretch.phase == "approach" for stretch in self.stretches]
+        return float(self.starts[approaches.index(False)]) if False in approaches else self.duration
+
     def q(self, t: ArrayLike) -> FloatArray:
         """The pose at t [s], clamped to 0…duration: () -> (n,), (k,) -> (k, n)."""
         times = np.asarray(t, dtype=np.float64)
