@@ -29,9 +29,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("save_picture", "&File", "Save picture…", "Save the scene as a picture", "Ctrl+Shift+P", before=True),
     ActionSpec("save_csv", "&File", "Save path as CSV…", "Save the tracked path with its joints", "Ctrl+Shift+E"),
     ActionSpec("quit", "&File", "Quit", "Close rvsim", Key.Quit, before=True),
-    ActionSpec(
-        "copy_pose_text", "&Edit", "Copy pose as text", "Joints and tool pose", "Ctrl+Shift+C", before=True
-    ),
+    ActionSpec("copy_pose_text", "&Edit", "Copy pose as text", "Joints and tool pose", "Ctrl+Shift+C", before=True),
     ActionSpec("copy_pose_numpy", "&Edit", "Copy pose as NumPy", "Joint values and tool pose, full precision"),
     ActionSpec("copy_pose_latex", "&Edit", "Copy pose as LaTeX", "The tool's matrix"),
     ActionSpec("view_iso", "&View", "Isometric", "Look from the front corner", "Ctrl+1"),
@@ -45,16 +43,12 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("look_stick", "&View", "Stick figure", "Lines and joints only", "", True, "look", True),
     ActionSpec("look_solid", "&View", "Solid", "The arm's body", "", True, "look"),
     ActionSpec("look_both", "&View", "Solid and stick", "The figure inside the body", "", True, "look"),
-    ActionSpec(
-        "show_frames", "&View", "Frames", "Frames of base, joints and tool", "Ctrl+F", True, before=True
-    ),
+    ActionSpec("show_frames", "&View", "Frames", "Frames of base, joints and tool", "Ctrl+F", True, before=True),
     ActionSpec("show_labels", "&View", "Labels", "Names in the scene", "", True),
     ActionSpec("show_floor", "&View", "Floor", "The floor with its dimensions", "", True),
     ActionSpec("show_trail", "&View", "Tool trail", "What the tool has drawn", "", True),
     ActionSpec("dark", "&View", "Dark", "Light letters on a dark ground", "Ctrl+Shift+D", True, before=True),
-    ActionSpec(
-        "presentation", "&View", "Presentation size", "Larger, for a projector", "Ctrl+Shift+F", True
-    ),
+    ActionSpec("presentation", "&View", "Presentation size", "Larger, for a projector", "Ctrl+Shift+F", True),
     ActionSpec("radians", "&View", "Angles in radians", "Instead of degrees", "", True, before=True),
     ActionSpec("metres", "&View", "Lengths in metres", "Instead of millimetres", "", True),
     ActionSpec("more_decimals", "&View", "More decimals", "One more decimal everywhere", "Ctrl+."),
