@@ -3,9 +3,10 @@
 from rvsim.kinematics.dh import dh_transform, joint_transforms
 from rvsim.kinematics.forward import forward_kinematics, link_transforms
 from rvsim.kinematics.inverse import branch_labels, free_pitch_batch, inverse_kinematics_batch, limit_copies
-from rvsim.kinematics.jacobian import jacobian
+from rvsim.kinematics.jacobian import PoseAndJacobian, jacobian, pose_and_jacobian
 
 __all__ = [
+    "PoseAndJacobian",
     "branch_labels",
     "dh_transform",
     "forward_kinematics",
@@ -15,4 +16,5 @@ __all__ = [
     "joint_transforms",
     "limit_copies",
     "link_transforms",
+    "pose_and_jacobian",
 ]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
+from functools import lru_cache
+
 from numpy.typing import ArrayLike
 
-from rvsim.kinematics.dh import joint_transforms
+from rvsim.kinematics.chain import Walk
+from rvsim.kinematics.tape import Number, Player, Tape
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray
 
@@ -16,8 +18,7 @@ def forward_kinematics(robot: Robot, q: ArrayLike) -> FloatArray:
     Raises:
         ShapeError: the last axis of q is not the number of joints.
     """
-    T_base_tool: FloatArray = link_transforms(robot, q)[..., -1, :, :] @ robot.T_flange_tool
-    return T_base_tool
+    return _tool_player(robot).play(q)
 
 
 def link_transforms(robot: Robot, q: ArrayLike) -> FloatArray:
@@ -26,9 +27,25 @@ def link_transforms(robot: Robot, q: ArrayLike) -> FloatArray:
     Raises:
         ShapeError: the last axis of q is not the number of joints.
     """
-    A = joint_transforms(robot, q)
-    T = np.empty((*A.shape[:-3], robot.dof + 1, 4, 4))
-    T[..., 0, :, :] = robot.T_base_0
-    for i in range(robot.dof):
-        T[..., i + 1, :, :] = T[..., i, :, :] @ A[..., i, :, :]
-    return T
+    return _links_player(robot).play(q)
+
+
+@lru_cache(maxsize=64)
+def _tool_player(robot: Robot) -> Player:
+    tape = Tape(robot.dof)
+    walk = Walk(tape, robot.T_base_0)
+    for index in range(robot.dof):
+        walk.pass_joint(robot, index)
+    walk.pass_transform(robot.T_flange_tool)
+    return tape.player(walk.frame.entries, (4, 4))
+
+
+@lru_cache(maxsize=64)
+def _links_player(robot: Robot) -> Player:
+    tape = Tape(robot.dof)
+    walk = Walk(tape, robot.T_base_0)
+    entries: list[Number] = [*walk.frame.entries]
+    for index in range(robot.dof):
+        walk.pass_joint(robot, index)
+        entries += walk.frame.entries
+    return tape.player(entries, (robot.dof + 1, 4, 4))
