@@ -47,7 +47,7 @@ def start_log(folder: Path | None) -> Path | None:
 
 
 class CrashReporter(QObject):
-    """Catches what nobody caught, logs it, and tells the user once: further ones are counted while the dialog is open."""
+    """Catches what nobody caught, logs it, and tells the user once: further ones are counted while that is open."""
 
     _caught = Signal(str, str)  # sentence, details; a signal, because the exception may come from any thread
 

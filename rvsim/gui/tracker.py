@@ -1,4 +1,4 @@
-"""Tracks the line and the chosen trajectory: path → joints → motion, and the repairs that are offered when points are missed."""
+"""Tracks the line and the chosen trajectory: path → joints → motion, and the repairs offered for missed points."""
 
 from __future__ import annotations
 
