@@ -7,6 +7,7 @@
     ├── RobotFileError         a robot file that cannot be read, with its path, table and key
     ├── UnknownNameError       a name outside a closed list (a path, a tool, an orientation)
     ├── PathFileError          a file of points that cannot be read, with its row and column
+    ├── FileWriteError         a file that cannot be written, with its path and the reason
     ├── ExpressionError        a typed value that is no number
     ├── NoClosedFormError      an arm whose inverse kinematics has no closed form here
     └── NoMassDataError        dynamics asked of an arm without masses
@@ -88,6 +89,14 @@ class PathFileError(RvsimError, ValueError):
     def __init__(self, path: object, where: str, found: str, expected: str) -> None:
         self.path, self.where, self.found, self.expected = str(path), where, found, expected
         super().__init__(f"{path}: {where}: found {found}, expected {expected}.")
+
+
+class FileWriteError(RvsimError, OSError):
+    """A file that cannot be written."""
+
+    def __init__(self, path: object, reason: str) -> None:
+        self.path, self.reason = str(path), reason
+        super().__init__(f"{path} cannot be written: {reason}.")
 
 
 class ExpressionError(RvsimError, ValueError):
