@@ -100,8 +100,8 @@ def contrast(one: Color, other: Color) -> float:
 
 def mixed(one: Color, other: Color, share: float) -> Color:
     """`share` of the other colour in the one; the alpha stays that of the one."""
-    blend = (a + share * (b - a) for a, b in zip(one[:3], other[:3], strict=True))
-    return Color(*blend, one.alpha)
+    red, green, blue = (a + share * (b - a) for a, b in zip(one[:3], other[:3], strict=True))
+    return Color(red, green, blue, one.alpha)
 
 
 def _linear(channel: float) -> float:

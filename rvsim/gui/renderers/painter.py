@@ -1,0 +1,197 @@
+"""Draws a scene with QPainter: everything projected together, sorted by depth, painted from far to near.
+
+It needs no OpenGL, works off-screen and is the faster renderer where OpenGL is only software.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QImage, QPainter, QPaintEvent
+from PySide6.QtWidgets import QWidget
+
+from rvsim.gui.renderers.painter_ink import Stroke, qcolor
+from rvsim.gui.renderers.painter_lens import Lens, Seen, look_at
+from rvsim.gui.renderers.painter_lines import (
+    dot_strokes,
+    draw_labels,
+    polyline_strokes,
+    segments_strokes,
+    triad_strokes,
+)
+from rvsim.gui.renderers.painter_shadow import draw_shadow
+from rvsim.gui.renderers.painter_solids import Solid, box_plate, solid_strokes
+from rvsim.scene import Box, Camera, Capsule, Color, Dots, Item, Labels, Polyline, Scene, Segments, Triads
+from rvsim.scene.floor import FLOOR_KEY
+
+
+class _Layers(NamedTuple):
+    """The things of a scene by the way they are painted, the lowest first."""
+
+    floor: list[Seen[Item]]
+    ghosts: list[Seen[Solid]]  # see-through
+    solids: list[Seen[Solid]]
+    lines: list[Seen[Item]]
+    triads: list[Seen[Triads]]
+    labels: list[Seen[Labels]]
+
+
+def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, height: int) -> None:
+    """Paints a scene into `width` × `height` device-independent pixels from the painter's origin.
+
+    Points that are nan, or behind the eye, are left out.
+    """
+    lens = Lens(camera, max(width, 1), max(height, 1))
+    painter.fillRect(0, 0, width, height, qcolor(scene.background))
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    layers = _layers(look_at(scene.items, lens))
+    _paint_floor(painter, layers, lens, scene.background)
+    _paint_ghosts(painter, layers.ghosts, lens)
+    _paint(painter, _strokes(layers, lens))
+    _paint(painter, [stroke for seen in layers.triads for stroke in triad_strokes(seen, lens, scene.background)])
+    for seen in layers.labels:
+        draw_labels(painter, seen, lens, scene.background)
+
+
+def _layers(everything: Iterable[Seen[Item]]) -> _Layers:
+    layers = _Layers([], [], [], [], [], [])
+    for seen in everything:
+        item, eye, pixels = seen
+        if isinstance(item, Labels):
+            layers.labels.append(Seen(item, eye, pixels))
+        elif item.key.startswith(FLOOR_KEY):
+            layers.floor.append(seen)
+        elif isinstance(item, Capsule | Box):
+            (layers.solids if item.color.alpha >= 1.0 else layers.ghosts).append(Seen(item, eye, pixels))
+        elif isinstance(item, Triads):
+            layers.triads.append(Seen(item, eye, pixels))
+        else:
+            layers.lines.append(seen)
+    return layers
+
+
+def _paint(painter: QPainter, strokes: Iterable[Stroke]) -> None:
+    for stroke in sorted(strokes, key=lambda stroke: -stroke.depth):
+        stroke.draw(painter)
+
+
+def _strokes(layers: _Layers, lens: Lens) -> list[Stroke]:
+    strokes = [stroke for seen in layers.solids for stroke in solid_strokes(seen, lens)]
+    for seen in layers.lines:
+        strokes += _line_strokes(seen, lens, among_solids=bool(layers.solids))
+    return strokes
+
+
+def _line_strokes(seen: Seen[Item], lens: Lens, among_solids: bool) -> list[Stroke]:
+    item, eye, pixels = seen
+    if isinstance(item, Polyline):
+        return polyline_strokes(Seen(item, eye, pixels), lens, among_solids)
+    if isinstance(item, Dots):
+        return dot_strokes(Seen(item, eye, pixels), lens)
+    return segments_strokes(Seen(item, eye, pixels), lens) if isinstance(item, Segments) else []
+
+
+def _paint_floor(painter: QPainter, layers: _Layers, lens: Lens, background: Color) -> None:
+    """The plate, the grid, and the shadow on them."""
+    for seen in layers.floor:
+        if isinstance(seen.item, Box):
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(qcolor(seen.item.color))
+            painter.drawPolygon(box_plate(seen.eye, lens))
+        for stroke in _line_strokes(seen, lens, among_solids=False):
+            stroke.draw(painter)
+    if layers.floor and layers.solids:
+        draw_shadow(painter, [seen.item for seen in layers.solids], lens, background)
+
+
+def _paint_ghosts(painter: QPainter, ghosts: list[Seen[Solid]], lens: Lens) -> None:
+    """See-through solids of one alpha are painted opaque on a layer and laid on the picture as one pane of glass."""
+    for alpha in sorted({seen.item.color.alpha for seen in ghosts}):
+        layer = _clear_image(lens.width, lens.height, painter.device().devicePixelRatioF())
+        layer_painter = QPainter(layer)
+        layer_painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        solids = [_opaque(seen) for seen in ghosts if seen.item.color.alpha == alpha]
+        _paint(layer_painter, [stroke for seen in solids for stroke in solid_strokes(seen, lens)])
+        layer_painter.end()
+        painter.setOpacity(alpha)
+        painter.drawImage(0, 0, layer)
+        painter.setOpacity(1.0)
+
+
+def _opaque(seen: Seen[Solid]) -> Seen[Solid]:
+    item, eye, pixels = seen
+    return Seen(replace(item, color=item.color._replace(alpha=1.0)), eye, pixels)
+
+
+def _clear_image(width: float, height: float, ratio: float) -> QImage:
+    image = QImage(
+        max(round(width * ratio), 1), max(round(height * ratio), 1), QImage.Format.Format_ARGB32_Premultiplied
+    )
+    image.setDevicePixelRatio(ratio)
+    image.fill(Qt.GlobalColor.transparent)
+    return image
+
+
+_EMPTY = Scene((), Color(1.0, 1.0, 1.0), np.array([[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]]))
+
+
+class PainterRenderer(QWidget):
+    """The widget that shows a scene with `paint_scene`; a `Renderer`."""
+
+    name = "painter"
+    description = "painter (no OpenGL needed)"
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self._scene = _EMPTY
+        self._camera = Camera(np.zeros(3), 3.0)
+        self._report: Callable[[float], None] | None = None
+
+    def widget(self) -> QWidget:
+        """Itself."""
+        return self
+
+    def set_scene(self, scene: Scene) -> None:
+        """Shows another scene at the next paint."""
+        if scene is not self._scene:
+            self._scene = scene
+            self.update()
+
+    def set_camera(self, camera: Camera) -> None:
+        """Looks from elsewhere at the next paint."""
+        if camera is not self._camera:
+            self._camera = camera
+            self.update()
+
+    def on_painted(self, report: Callable[[float], None]) -> None:
+        """From now on `report(milliseconds)` is called after each paint with the time that it took."""
+        self._report = report
+
+    def image(self, width: int | None = None, height: int | None = None) -> QImage:
+        """The picture in that many device-independent pixels; by default as large as the widget."""
+        wide, high = width or self.width(), height or self.height()
+        return scene_image(self._scene, self._camera, wide, high, self.devicePixelRatioF())
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Paints, and reports the time that it took."""
+        begin = time.perf_counter()
+        painter = QPainter(self)
+        paint_scene(painter, self._scene, self._camera, self.width(), self.height())
+        painter.end()
+        if self._report is not None:
+            self._report(1e3 * (time.perf_counter() - begin))
+
+
+def scene_image(scene: Scene, camera: Camera, width: int, height: int, ratio: float = 1.0) -> QImage:
+    """A picture of width × height device-independent pixels, `ratio` device pixels each."""
+    image = _clear_image(width, height, ratio)
+    painter = QPainter(image)
+    paint_scene(painter, scene, camera, width, height)
+    painter.end()
+    return image

@@ -1,0 +1,63 @@
+"""Paths and trails: what was desired, what cannot be reached, what the tool really did."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rvsim.scene.palette import ScenePalette
+from rvsim.scene.primitives import Dots, Item, Label, Labels, Polyline
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+
+def path_items(
+    desired: ArrayLike,
+    reached: ArrayLike,
+    actual: ArrayLike,
+    palette: ScenePalette,
+    *,
+    key: str = "path",
+    marks: bool | None = None,
+) -> tuple[Item, ...]:
+    """The desired path (m, 3) with its unreached stretches, and the actual one (k, 3) on top [m].
+
+    Args:
+        reached: (m,) which of the desired points the arm can reach.
+        marks: a dot at each desired point; None shows them up to 60 points.
+    """
+    points, mask = np.asarray(desired, dtype=np.float64).reshape(-1, 3), np.asarray(reached, dtype=bool)
+    items: list[Item] = []
+    for number, (is_reached, stretch) in enumerate(_stretches(points, mask)):
+        color = palette.desired if is_reached else palette.unreached
+        items.append(Polyline(f"{key}.desired{number}", stretch, color, 2.0, dashed=not is_reached))
+    if marks if marks is not None else len(points) <= 60:
+        items.append(Dots(f"{key}.reached", points[mask], palette.desired, 5.0))
+    items += _crosses(points[~mask], palette, key)
+    return (*items, *trail_items(actual, palette, key=f"{key}.actual"))
+
+
+def trail_items(points: ArrayLike, palette: ScenePalette, *, key: str = "trail") -> tuple[Item, ...]:
+    """Where the tool was: points (k, 3) [m]; nothing for fewer than two."""
+    line = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    return (Polyline(key, line, palette.actual, 2.2),) if len(line) > 1 else ()
+
+
+def _stretches(points: FloatArray, reached: BoolArray) -> list[tuple[bool, FloatArray]]:
+    """The path cut into reached and unreached stretches; a piece with one unreached end is unreached."""
+    if len(points) < 2:
+        return []
+    whole = reached[:-1] & reached[1:]
+    cuts = np.flatnonzero(whole[1:] != whole[:-1]) + 1
+    starts, ends = [0, *cuts.tolist()], [*cuts.tolist(), len(whole)]
+    return [(bool(whole[start]), points[start : end + 1]) for start, end in zip(starts, ends, strict=True)]
+
+
+def _crosses(points: FloatArray, palette: ScenePalette, key: str) -> list[Item]:
+    """A cross at unreached points, so that colour is not the only sign; at most 40, evenly chosen."""
+    if not len(points):
+        return []
+    chosen = points[np.unique(np.linspace(0, len(points) - 1, min(len(points), 40)).astype(int))]
+    labels = tuple(Label(point, "×", palette.unreached, (-4.5, 5.0), 15.0) for point in chosen)
+    return [Labels(f"{key}.unreached", labels)]

@@ -1,0 +1,62 @@
+"""The solid look: the capsules and boxes of the robot file, or shells made from the DH table where it has none."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rvsim.robot import BoxShape, CapsuleShape, Robot, Shape
+from rvsim.scene.palette import ScenePalette, mixed
+from rvsim.scene.points import frames
+from rvsim.scene.primitives import Box, Capsule, Color, Item
+from rvsim.scene.stick import Pose, link_polylines
+
+FloatArray = NDArray[np.float64]
+
+
+def solid_items(pose: Pose, palette: ScenePalette, key: str, alpha: float) -> list[Item]:
+    """The arm's body."""
+    if not pose.robot.shapes:
+        return _shells(pose, palette, key, alpha)
+    T = frames(pose.robot, pose.T)
+    return [
+        _solid(shape, T[shape.frame], f"{key}.solid{index}", _color(pose.robot, shape, palette).faded(alpha))
+        for index, shape in enumerate(pose.robot.shapes)
+    ]
+
+
+def _solid(shape: Shape, T: FloatArray, key: str, color: Color) -> Item:
+    rotation, origin = T[:3, :3], T[:3, 3]
+    if isinstance(shape, CapsuleShape):
+        return Capsule(key, rotation @ shape.start + origin, rotation @ shape.end + origin, shape.radius, color)
+    return Box(key, _at(T, shape), shape.size, color)
+
+
+def _at(T: FloatArray, shape: BoxShape) -> FloatArray:
+    placed = T.copy()
+    placed[:3, 3] += T[:3, :3] @ shape.center
+    return placed
+
+
+def _color(robot: Robot, shape: Shape, palette: ScenePalette) -> Color:
+    """The shape's own colour; without one, that of the joint that moves it."""
+    if shape.color:
+        return Color.from_hex(shape.color)
+    if shape.frame == 0:
+        return palette.body_dark
+    return Color.from_hex(robot.joints[min(shape.frame, robot.dof) - 1].color)
+
+
+def _shells(pose: Pose, palette: ScenePalette, key: str, alpha: float) -> list[Item]:
+    """Slim bodies along the links with a housing in the joint's colour at each joint."""
+    radius = 0.035 * pose.robot.size
+    body = mixed(palette.body, palette.body_dark, 0.15).faded(alpha)
+    items: list[Item] = [
+        Capsule(f"{key}.shell{number}.{piece}", points[piece], points[piece + 1], radius, body)
+        for number, (_, points) in enumerate(link_polylines(pose))
+        for piece in range(len(points) - 1)
+    ]
+    return items + [
+        Capsule(f"{key}.housing{index}", point, point + 1e-6, 1.35 * radius, Color.from_hex(joint.color, alpha))
+        for index, (joint, point) in enumerate(zip(pose.robot.joints, pose.joints, strict=True))
+    ]
