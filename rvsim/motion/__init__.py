@@ -2,6 +2,7 @@
 
 from rvsim.motion.path import TOOL_DOWN, Path, line_path, through_points
 from rvsim.motion.spline import spline_points
+from rvsim.motion.tracking import track
 from rvsim.motion.tracking_result import Tracking, Unreached, UnreachedKind
 from rvsim.motion.trajectory import Trajectory, joint_move, trajectory_of
 
@@ -16,5 +17,6 @@ __all__ = [
     "line_path",
     "spline_points",
     "through_points",
+    "track",
     "trajectory_of",
 ]

@@ -100,13 +100,6 @@ def radial_rotations(points: ArrayLike) -> FloatArray:
     return rotations
 
 
-def nearest_rotation(matrix: ArrayLike) -> FloatArray:
-    """The rotation (3, 3) nearest to a matrix in the Frobenius norm (Higham, Functions of Matrices, §8.1)."""
-    u, _, vt = np.linalg.svd(frozen_array("rotation", matrix, (3, 3)))
-    sign = np.sign(np.linalg.det(u @ vt))
-    return np.asarray(u @ np.diag([1.0, 1.0, sign]) @ vt)
-
-
 def _each(rotation: ArrayLike | None, samples: int) -> FloatArray | None:
     if rotation is None:
         return None

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rvsim.errors import ShapeError
 from rvsim.motion.path import Path
+from rvsim.motion.turns import existing
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
@@ -59,7 +60,7 @@ class Tracking:
     def __post_init__(self) -> None:
         object.__setattr__(self, "q", frozen_array("q", self.q, (self.path.samples, self.robot.dof)))
         object.__setattr__(self, "actual", frozen_array("actual", self.actual, (self.path.samples, 3)))
-        reached = ~np.isnan(self.q).any(axis=1)
+        reached = existing(self.q)
         reached.setflags(write=False)
         object.__setattr__(self, "reached", reached)
         if len(self.unreached) != self.samples - self.reached_count:

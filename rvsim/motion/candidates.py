@@ -1,0 +1,105 @@
+"""All the joint poses that put the tool on each point of a path: the material from which a sequence is chosen."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from rvsim.kinematics.forward import forward_kinematics
+from rvsim.kinematics.inverse import free_pitch_batch, inverse_kinematics_batch
+from rvsim.kinematics.jacobian import jacobian
+from rvsim.motion.path import Path
+from rvsim.motion.turns import JointRange, existing
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+# A free pitch is sampled this finely [rad].
+_PITCH_STEP = np.radians(1.5)
+# Of all sampled orientations and branches so many are kept for the choice; their number enters it squared.
+_KEPT = 48
+_SAME_PLACE = 1e-9
+
+
+def branches_on(robot: Robot, path: Path, near: FloatArray) -> FloatArray:
+    """(m, s, n) every branch at every point, NaN where one does not exist; limits are not asked.
+
+    Where the orientation is free it is sampled, and a last joint that only turns the tool in its place stays as it is
+    in `near` (n,).
+
+    Raises:
+        NoClosedFormError: the arm has no closed form.
+    """
+    if path.rotations is not None or robot.dof < 4:
+        return inverse_kinematics_batch(robot, path.poses())
+    q = _free(robot, path.points, near)
+    if _last_joint_only_turns(robot):
+        q[..., -1] = np.where(np.isnan(q[..., -1]), np.nan, near[-1])
+    return q
+
+
+def _free(robot: Robot, points: FloatArray, near: FloatArray) -> FloatArray:
+    """(m, s, n) with sampled orientations: every pitch (5R), directions all around (6R), else as it is in `near`."""
+    if robot.dof == 5:
+        pitches = np.arange(-np.pi, np.pi, _PITCH_STEP)
+        q = free_pitch_batch(robot, points, pitches, float(near[-1]))
+    elif robot.dof == 6:
+        q = inverse_kinematics_batch(robot, _all_around(robot, points, near).reshape(-1, 4, 4))
+    else:
+        q = inverse_kinematics_batch(robot, _as_it_is(robot, points, near))
+    return q.reshape(len(points), -1, robot.dof)
+
+
+def thinned(q: FloatArray, near: FloatArray, joints: JointRange) -> FloatArray:
+    """(m, k, n) the most useful of sampled branches (m, s, n): those that reach most points not yet reached often."""
+    if q.shape[1] <= _KEPT:
+        return q
+    exists = existing(q)
+    step = np.linalg.norm(joints.nearest_copy(q, near) - near, axis=2)
+    distance = np.where(exists.any(axis=0), np.nanmean(np.where(exists, step, 0.0), axis=0), 1e9)
+    covered = np.zeros(len(q))
+    kept: list[int] = []
+    for _ in range(_KEPT):
+        score = exists.T @ (1.0 / (1.0 + covered)) - 1e-6 * distance
+        score[kept] = -np.inf
+        kept.append(int(np.argmax(score)))
+        covered += exists[:, kept[-1]]
+    return np.asarray(q[:, sorted(kept)])
+
+
+def _as_it_is(robot: Robot, points: FloatArray, near: FloatArray) -> FloatArray:
+    """(m, 4, 4) the points with the orientation of `near`."""
+    T = np.tile(forward_kinematics(robot, near), (len(points), 1, 1))
+    T[:, :3, 3] = points
+    return T
+
+
+def _all_around(robot: Robot, points: FloatArray, near: FloatArray) -> FloatArray:
+    """(m, s, 4, 4) the points with sampled directions of the tool."""
+    axes = _axes_around(robot, near)
+    T = np.zeros((len(points), len(axes), 4, 4))
+    T[..., :3, :3] = _frames(axes)
+    T[..., :3, 3] = points[:, None]
+    T[..., 3, 3] = 1.0
+    return T
+
+
+def _axes_around(robot: Robot, near: FloatArray) -> FloatArray:
+    """(s, 3) the tool axis as it is in `near`, and the directions to points spread over the faces of a cube."""
+    grid = np.array(list(product((-2.0, -1.0, 0.0, 1.0, 2.0), repeat=3)))
+    shell = grid[np.abs(grid).max(axis=1) == 2.0]
+    around = shell / np.linalg.norm(shell, axis=1, keepdims=True)
+    return np.concatenate([forward_kinematics(robot, near)[None, :3, 2], around])
+
+
+def _frames(axes: FloatArray) -> FloatArray:
+    """(..., 3, 3) rotations whose z axes are the unit vectors (..., 3)."""
+    helper = np.where(np.abs(axes[..., 2:]) < 0.9, [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
+    x = np.cross(helper, axes)
+    x /= np.linalg.norm(x, axis=-1, keepdims=True)
+    return np.stack([x, np.cross(axes, x), axes], axis=-1)
+
+
+def _last_joint_only_turns(robot: Robot) -> bool:
+    """Whether the tool's place does not depend on the last joint."""
+    return bool(np.linalg.norm(jacobian(robot, robot.home)[:3, -1]) < _SAME_PLACE * robot.size)
