@@ -1,0 +1,232 @@
+"""The OpenGL renderer: pyqtgraph's view with our camera, and with layers that never swallow an error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from time import perf_counter
+from typing import NamedTuple
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QImage, QMatrix4x4, QOpenGLContext, QSurfaceFormat
+from PySide6.QtOpenGL import QOpenGLFramebufferObject
+from PySide6.QtWidgets import QWidget
+
+from rvsim.errors import RvsimError
+from rvsim.gui.renderers.opengl_binding import GL, GLViewWidget
+from rvsim.gui.renderers.opengl_context import probe_opengl
+from rvsim.gui.renderers.opengl_labels import LabelLayer
+from rvsim.gui.renderers.opengl_layers import (
+    BodyLayer,
+    Frame,
+    GhostLayer,
+    PlateLayer,
+    ShadowLayer,
+    StrokeLayer,
+    to_qt,
+)
+from rvsim.gui.renderers.painter_ink import qcolor
+from rvsim.scene import Box, Camera, Capsule, Color, Dots, Labels, Polyline, Scene, Segments, Triads
+from rvsim.scene.floor import FLOOR_KEY
+from rvsim.scene.palette import DARK, LIGHT, luminance
+
+_PROOF = 16  # pixels
+_LINES = (Polyline, Segments, Dots)
+_START = Camera(np.zeros(3), 3.0)
+
+
+class NothingPaintedError(RvsimError):
+    """OpenGL reports no error, and yet the picture is not there."""
+
+    def __init__(self) -> None:
+        super().__init__("it reports no error but paints nothing")
+
+
+class _Layers(NamedTuple):
+    """The picture from back to front."""
+
+    plate: PlateLayer
+    grid: StrokeLayer
+    shadow: ShadowLayer
+    ghosts: GhostLayer
+    bodies: BodyLayer
+    lines: StrokeLayer
+    frames: StrokeLayer
+    texts: LabelLayer
+
+
+def _new_layers() -> _Layers:
+    return _Layers(
+        PlateLayer(),
+        StrokeLayer(use_depth=False),
+        ShadowLayer(),
+        GhostLayer(),
+        BodyLayer(),
+        StrokeLayer(),
+        StrokeLayer(on_top=True),
+        LabelLayer(),
+    )
+
+
+def _shadow_color(background: Color) -> Color:
+    return (LIGHT if luminance(background) > 0.5 else DARK).shadow
+
+
+class OpenGLView(GLViewWidget):  # type: ignore[misc]
+    """The widget: transparent to the mouse, in the background colour of its scene.
+
+    Signals:
+        failed: (reason) the first error of a paint; nothing more is painted afterwards.
+    """
+
+    failed = Signal(str)
+
+    def __init__(self, parent: QWidget | None, samples: int = 0) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._sample(samples)
+        self.camera = _START
+        self.frame: Frame | None = None
+        self._layers = _new_layers()
+        for layer in self._layers:
+            self.addItem(layer)
+        self._broken = False
+        self.paint_began = 0.0
+
+    def _sample(self, samples: int) -> None:
+        surface = QSurfaceFormat(QSurfaceFormat.defaultFormat())
+        surface.setSamples(samples)
+        surface.setDepthBufferSize(24)
+        surface.setStencilBufferSize(8)
+        self.setFormat(surface)
+
+    def show_scene(self, scene: Scene) -> None:
+        """Show a scene at the next paint."""
+        background, layers = scene.background, self._layers
+        floor = [item for item in scene.items if item.key.startswith(FLOOR_KEY)]
+        things = [item for item in scene.items if not item.key.startswith(FLOOR_KEY)]
+        bodies = [item for item in things if isinstance(item, Capsule | Box)]
+        opaque = [body for body in bodies if body.color.alpha >= 1.0]
+        layers.plate.show_items(item for item in floor if isinstance(item, Capsule | Box))
+        layers.grid.show_items((item for item in floor if isinstance(item, _LINES)), background)
+        layers.shadow.show_shadow(opaque if floor else [], _shadow_color(background))
+        layers.ghosts.show_items(body for body in bodies if body.color.alpha < 1.0)
+        layers.bodies.show_items(opaque)
+        layers.lines.show_items((item for item in things if isinstance(item, _LINES)), background)
+        layers.frames.show_items((item for item in things if isinstance(item, Triads)), background)
+        layers.texts.show_items((item for item in scene.items if isinstance(item, Labels | Triads)), background)
+        self.setBackgroundColor(qcolor(background))
+
+    # --- pyqtgraph's hooks -----------------------------------------------------------------------------------------
+
+    def viewMatrix(self) -> QMatrix4x4:
+        """The scene's camera instead of pyqtgraph's."""
+        return to_qt(self.camera.view_matrix())
+
+    def projectionMatrix(self, *_region_and_viewport: object) -> QMatrix4x4:
+        """The scene's camera instead of pyqtgraph's; the whole picture is always drawn."""
+        return to_qt(self.camera.projection_matrix(self.width(), self.height()))
+
+    def drawItemTree(self, *_item: object, **_options: object) -> None:
+        """The layers in their order. pyqtgraph would print an error and go on."""
+        for layer in self.items:
+            if self.default_vao.isCreated():
+                self.default_vao.bind()
+            layer.paint()
+
+    def initializeGL(self) -> None:
+        """Prepare the layers; also when the context has been made anew, as for a dock that is floated."""
+        self._guarded(self._initialize)
+
+    def paintGL(self) -> None:
+        """Paint, and say so the first time that it fails."""
+        self.paint_began = perf_counter()
+        if not self._broken:
+            self._guarded(self._paint)
+
+    def _guarded(self, act: Callable[[], None]) -> None:
+        # An exception must not leave a paint event: whatever the driver does, the window lives on with the painter.
+        try:
+            act()
+        except Exception as error:
+            self._broken = True
+            self.failed.emit(str(error) or type(error).__name__)
+
+    def _initialize(self) -> None:
+        super().initializeGL()
+        self._prove()
+
+    def _paint(self) -> None:
+        self.frame = self._frame_of(self.width(), self.height())
+        super().paintGL()
+
+    def _frame_of(self, width: int, height: int) -> Frame:
+        return Frame(
+            QOpenGLContext.currentContext().functions(),
+            to_qt(self.camera.view_matrix()),
+            to_qt(self.camera.projection_matrix(width, height)),
+            self.camera,
+            width,
+            height,
+            self.devicePixelRatioF(),
+        )
+
+    def _prove(self) -> None:
+        """Paint a white dot on black beside the screen and look at it: drivers may fail without an error."""
+        target = QOpenGLFramebufferObject(_PROOF, _PROOF, QOpenGLFramebufferObject.Attachment.Depth)
+        target.bind()
+        self.frame = self._frame_of(_PROOF, _PROOF)._replace(pixel_ratio=1.0)
+        self.frame.functions.glViewport(0, 0, _PROOF, _PROOF)
+        GL.glClearColor(0.0, 0.0, 0.0, 1.0)
+        GL.glClear(GL.GL_COLOR_BUFFER_BIT | GL.GL_DEPTH_BUFFER_BIT)
+        dot = StrokeLayer()
+        dot.initialize()
+        dot.show_items(
+            [Dots("proof", self.camera.target[None], Color(1.0, 1.0, 1.0), _PROOF / 2)], Color(0.0, 0.0, 0.0)
+        )
+        dot.draw(self.frame)
+        target.release()
+        picture = target.toImage()
+        if picture.pixelColor(_PROOF // 2, _PROOF // 2).red() < 250 or picture.pixelColor(0, 0).red() > 5:
+            raise NothingPaintedError
+
+
+class OpenGLRenderer:
+    """Draws a scene with OpenGL.
+
+    Args:
+        samples: subpixels for smooth edges; 0 where the processor draws, which they would slow down fivefold.
+
+    Attributes:
+        failed: signal (reason), emitted once if painting breaks; another renderer should then take over.
+    """
+
+    def __init__(self, parent: QWidget | None = None, samples: int = 0) -> None:
+        self._view = OpenGLView(parent, samples)
+        probe = probe_opengl()
+        self.name = "opengl"
+        self.description = f"OpenGL {probe.version[0]}.{probe.version[1]}, {probe.renderer}"
+        self.failed = self._view.failed
+
+    def widget(self) -> QWidget:
+        """The widget that shows the scene."""
+        return self._view
+
+    def set_scene(self, scene: Scene) -> None:
+        """Show another scene at the next paint; several calls before it cost one paint."""
+        self._view.show_scene(scene)
+
+    def set_camera(self, camera: Camera) -> None:
+        """Look from elsewhere at the next paint."""
+        self._view.camera = camera
+        self._view.update()
+
+    def image(self) -> QImage:
+        """The picture as it would be painted now, texts included, in the pixels of the screen."""
+        picture: QImage = self._view.grabFramebuffer()
+        return picture
+
+    def on_painted(self, report: Callable[[float], None]) -> None:
+        """From now on `report(milliseconds)` is called after each frame: from the first call until it is shown."""
+        self._view.frameSwapped.connect(lambda: report(1e3 * (perf_counter() - self._view.paint_began)))

@@ -1,0 +1,83 @@
+"""All texts of the OpenGL picture: one layer on top, painted by QPainter as the painter renderer paints them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtGui import QPainter
+
+from rvsim.gui.renderers.opengl_binding import GLGraphicsItem
+from rvsim.gui.renderers.opengl_layers import Frame
+from rvsim.gui.renderers.painter_lines import draw_text
+from rvsim.scene import Color, Label, Labels, Triads
+from rvsim.scene.palette import axis_colors
+
+FloatArray = NDArray[np.float64]
+
+_LETTER_SIZE, _LETTER_GAP = 10.5, 7.0
+_SHORTEST_AXIS = 12.0  # [pixels] an axis that points at the eye has no room for its letter
+_MARGIN = 200.0  # [pixels] a text that begins farther outside cannot be seen
+
+
+class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
+    """Every label of the scene, and the letters of its frames."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._labels: list[Label] = []
+        self._places = np.empty((0, 3))
+        self._triads: list[Triads] = []
+        self._background = Color(1.0, 1.0, 1.0)
+
+    def show_items(self, items: Iterable[Labels | Triads], background: Color) -> None:
+        """Show exactly the texts of these, with a halo in the background's colour."""
+        shown = list(items)
+        self._background = background
+        self._labels = [label for item in shown if isinstance(item, Labels) for label in item.labels if label.text]
+        self._places = np.array([label.position for label in self._labels], dtype=np.float64).reshape(-1, 3)
+        self._triads = [item for item in shown if isinstance(item, Triads) and item.letters]
+
+    def paint(self) -> None:
+        """Draw the texts that are in front of the eye."""
+        if not self._labels and not self._triads:
+            return
+        frame: Frame = self.view().frame
+        painter = QPainter(self.view())
+        for item in self._triads:
+            self._draw_letters(painter, frame, item)
+        self._draw_labels(painter, frame)
+        painter.end()
+
+    def _draw_labels(self, painter: QPainter, frame: Frame) -> None:
+        pixels = frame.camera.project(self._places, frame.width, frame.height)
+        for label, (x, y, _), seen in zip(self._labels, pixels.tolist(), _seen(pixels, frame).tolist(), strict=True):
+            if seen:
+                place = (x + label.shift[0], y + label.shift[1])
+                draw_text(painter, place, label.text, label.color, label.size, self._background)
+
+    def _draw_letters(self, painter: QPainter, frame: Frame, item: Triads) -> None:
+        frames = np.asarray(item.T_base_frame, dtype=np.float64).reshape(-1, 4, 4)
+        origins = frame.camera.project(frames[:, :3, 3], frame.width, frame.height)
+        for axis, color in enumerate(axis_colors(self._background)):
+            tips = frame.camera.project(frames[:, :3, 3] + item.length * frames[:, :3, axis], frame.width, frame.height)
+            shown = _seen(origins, frame) & _seen(tips, frame)
+            for place in _beyond(origins[shown, :2], tips[shown, :2]):
+                draw_text(painter, place, "xyz"[axis], color.faded(item.alpha), _LETTER_SIZE, self._background)
+
+
+def _seen(pixels: FloatArray, frame: Frame) -> NDArray[np.bool_]:
+    """(k,) which of the projected points (k, 3) are numbers, before the eye and near the picture."""
+    outside = np.abs(pixels[:, :2] - (frame.width / 2, frame.height / 2)) - (frame.width / 2, frame.height / 2)
+    before = np.full(len(pixels), True) if frame.camera.orthographic else pixels[:, 2] > 0
+    return np.asarray(before & np.isfinite(pixels).all(axis=1) & (outside < _MARGIN).all(axis=1))
+
+
+def _beyond(starts: FloatArray, tips: FloatArray) -> list[tuple[float, float]]:
+    """Where a letter begins that stands just beyond the tip of each axis long enough to have one."""
+    steps = tips - starts
+    lengths = np.hypot(steps[:, 0], steps[:, 1])
+    long = lengths > _SHORTEST_AXIS
+    places = tips[long] + _LETTER_GAP * steps[long] / lengths[long, None] + (-3.0, 3.5)
+    return [(float(x), float(y)) for x, y in places]
