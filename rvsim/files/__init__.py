@@ -1,6 +1,16 @@
-"""The disk: robot files."""
+"""The disk: robot files, the user's folder."""
 
 from rvsim.files.robot_file import load_robot, robot_names, save_robot
 from rvsim.files.robot_text import robot_text
+from rvsim.files.user_folder import find_user_folder, user_folder, user_robot_files, user_robot_path
 
-__all__ = ["load_robot", "robot_names", "robot_text", "save_robot"]
+__all__ = [
+    "find_user_folder",
+    "load_robot",
+    "robot_names",
+    "robot_text",
+    "save_robot",
+    "user_folder",
+    "user_robot_files",
+    "user_robot_path",
+]

@@ -160,7 +160,7 @@ class Number:
     def _expected(self, place: Place) -> str:
         name = place.units.of(self.quantity).name
         unit = f" [{name}{self.per}]" if name else ""
-        return f"a number from {self.least:g} to {self.most:g}{unit}"
+        return f"a number from {self.least:.8g} to {self.most:.8g}{unit}"
 
 
 @dataclass(frozen=True)
@@ -245,17 +245,18 @@ class Table:
         names = [key.name for key in self.keys]
         for name in table:
             if name not in names:
-                expected = "only keys that are known here"
-                place.refuse(f"the unknown key {shown(name)[9:]}", expected, did_you_mean(name[:100], names))
+                here = place.at(f"key {name[:100]!r}")
+                here.refuse("an unknown key", "one of the known keys", did_you_mean(name[:100], names))
 
 
 def _read_key(key: Key, table: dict[str, Any], place: Place) -> Any:
     nested = isinstance(key.kind, Table | Items)
-    here = place.at(key.name if nested else f"key {key.name!r}", key.comment)
+    hint = f"{key.name}: {key.comment}." if key.comment else ""
+    here = place.at(key.name if nested else f"key {key.name!r}", hint)
     if key.name in table:
         return key.kind.read(table[key.name], here)
     if key.default is REQUIRED:
-        here.refuse("nothing", f"this {'table' if nested else 'key'}")
+        here.refuse("nothing", f"this {'table' if nested else 'key'}, which is required")
     return key.default
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple, NoReturn
 
 from rvsim.errors import RobotFileError
+from rvsim.files.toml_source import line_of
 from rvsim.units import (
     degrees_from_radians,
     metres_from_millimetres,
@@ -60,12 +61,13 @@ _FILE_UNITS = Units()
 
 @dataclass(frozen=True)
 class Place:
-    """A place in a file: the steps from its top, the units that hold there, and a hint for who errs there."""
+    """A place in a file: the steps from its top, the units that hold there, a hint for who errs there, and the text."""
 
     path: str
     steps: tuple[str, ...] = ()
     units: Units = _FILE_UNITS
     hint: str = ""
+    text: str = ""
 
     def at(self, step: str, hint: str = "") -> Place:
         """One step deeper."""
@@ -81,7 +83,8 @@ class Place:
 
     def refuse(self, found: str, expected: str, suggestion: str = "") -> NoReturn:
         """Raise the `RobotFileError` of this place."""
-        where = ", ".join(self.steps) or "the file"
+        line = line_of(self.text, self.steps)
+        where = ", ".join((f"line {line}", *self.steps) if line else self.steps) or "the file"
         raise RobotFileError(self.path, where, found, expected, suggestion or self.hint)
 
 

@@ -5,14 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from rvsim.errors import RobotDefinitionError, RobotFileError, UnknownRobotError
 from rvsim.files.atomic import write_atomically
 from rvsim.files.place import Place
 from rvsim.files.robot_format import ROBOT
 from rvsim.files.robot_text import robot_text
-from rvsim.files.toml_source import read_toml, tables_from
+from rvsim.files.toml_source import read_bytes, tables_of, text_of
 from rvsim.resources import resource
 from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
 
 _SOURCES = ("rv-m1", "rv-1a", "ur5e", "rrrp", "al5b")
 _TEXTBOOK = ("planar", "articulated", "spherical", "scara", "cylindrical", "cartesian")
@@ -39,12 +42,13 @@ def load_robot(name_or_path: str | Path) -> Robot:
 
 
 def robot_from_bytes(data: bytes, path: str | Path) -> Robot:
-    """The arm that the bytes of a robot file mean; `path` is for messages and names an arm without a name.
+    """The arm that the bytes of a robot file mean; `path` is for messages, and names an arm that has no name.
 
     Raises:
         RobotFileError: they make no arm.
     """
-    robot: Robot = ROBOT.read(tables_from(path, data), Place(str(path)))
+    text = text_of(data, path)
+    robot: Robot = ROBOT.read(tables_of(text, path), Place(str(path), text=text))
     return robot if robot.name else replace(robot, name=Path(path).stem)
 
 
@@ -57,15 +61,27 @@ def save_robot(robot: Robot, path: str | Path) -> None:
     """
     data = robot_text(robot).encode()
     try:
-        robot_from_bytes(data, path)
+        reread = robot_from_bytes(data, path)
     except RobotFileError as problem:
-        raise RobotDefinitionError(robot.name, f"cannot be saved: {problem.where}: {problem.found}.") from None
+        what = f"cannot be saved: {problem.where}: found {problem.found}, expected {problem.expected}."
+        raise RobotDefinitionError(robot.name, what) from None
+    _check_same(robot, reread)
     write_atomically(Path(path), data)
 
 
+def _check_same(robot: Robot, reread: Robot) -> None:
+    # A file says rotations as three angles and inertias as six numbers: a skewed matrix would come back as another.
+    for before, after in zip(_matrices(robot), _matrices(reread), strict=True):
+        if not np.allclose(before, after, rtol=0.0, atol=1e-9):
+            raise RobotDefinitionError(robot.name, "cannot be saved: a matrix of its base, tools or masses is skewed.")
+
+
+def _matrices(robot: Robot) -> list[FloatArray]:
+    return [robot.T_base_0, *(tool.T_flange_tool for tool in robot.tools), *(link.inertia for link in robot.masses)]
+
+
 def _from_file(path: Path) -> Robot:
-    robot: Robot = ROBOT.read(read_toml(path), Place(str(path)))
-    return robot if robot.name else replace(robot, name=path.stem)
+    return robot_from_bytes(read_bytes(path), path)
 
 
 def _exists(path: Path) -> bool:

@@ -10,10 +10,10 @@ import numpy as np
 from rvsim.errors import RvsimError, did_you_mean
 from rvsim.files.kinds import Choice, Flag, HexColor, Items, Key, Number, Numbers, Table, Text
 from rvsim.files.place import LENGTH_UNITS, Place, shown
-from rvsim.files.rigid import roll_pitch_yaw, transform_from
-from rvsim.robot import BoxShape, CapsuleShape, Datum, Gripper, Joint, LinkMass, Robot, Tool
+from rvsim.robot import BoxShape, CapsuleShape, Datum, Gripper, Joint, LinkMass, Robot, Shape, Tool
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.robot import NO_TOOL
+from rvsim.spatial import rotation_from_rpy, rpy_from_rotation, transform
 
 # A hundred turns; a kilometre.
 _ANGLE = Number("angle", -36_000.0, 36_000.0)
@@ -95,19 +95,23 @@ _RPY = Key("rpy", _ANGLES, (0.0, 0.0, 0.0), "roll, pitch, yaw [degrees]: R = Rz(
 
 BASE = Table(
     keys=(_XYZ, _RPY),
-    build=lambda values, _: transform_from(values["xyz"], values["rpy"]),
+    build=lambda values, _: _transform(values),
     parts=lambda T: _place_parts(T),
 )
 _AT_ORIGIN = NO_TOOL.T_flange_tool
 TOOL = Table(
     keys=(Key("name", Text(1, 40)), Key("title", Text(1, 80), comment="shown in the list of tools"), _XYZ, _RPY),
-    build=lambda values, _: Tool(values["name"], values["title"], transform_from(values["xyz"], values["rpy"])),
+    build=lambda values, _: Tool(values["name"], values["title"], _transform(values)),
     parts=lambda tool: {"name": tool.name, "title": tool.title, **_place_parts(tool.T_flange_tool)},
 )
 
 
+def _transform(values: dict[str, Any]) -> FloatArray:
+    return transform(rotation_from_rpy(values["rpy"]), values["xyz"])
+
+
 def _place_parts(T: FloatArray) -> dict[str, Any]:
-    return {"xyz": _tuple(T[:3, 3]), "rpy": roll_pitch_yaw(T)}
+    return {"xyz": _tuple(T[:3, 3]), "rpy": _tuple(rpy_from_rotation(T[:3, :3]))}
 
 
 # --- looks ---------------------------------------------------------------------------------------------------------
@@ -145,7 +149,7 @@ LOOK = Table(
 
 def _whole_frame(values: dict[str, Any], place: Place) -> dict[str, Any]:
     if values["frame"] != int(values["frame"]):
-        place.at("key 'frame'", _FRAME.comment).refuse(shown(values["frame"]), "a whole number")
+        place.at("key 'frame'").refuse(shown(values["frame"]), "a whole number")
     return values | {"frame": int(values["frame"])}
 
 
@@ -242,11 +246,14 @@ def _check_tool_name(name: str, names: list[str], place: Place) -> None:
         place.at("key 'tool_name'").refuse(repr(name), "the name of a [[tool]]", did_you_mean(name, names))
 
 
-def _check_frames(shapes: tuple[Any, ...], dof: int, place: Place) -> None:
+def _check_frames(shapes: tuple[Shape, ...], dof: int, place: Place) -> None:
+    counts = {CapsuleShape: 0, BoxShape: 0}
     for shape in shapes:
+        counts[type(shape)] += 1
         if shape.frame > dof + 1:
-            expected = f"0 to {dof + 1} for an arm of {dof} joints"
-            place.at("look").at("key 'frame'", _FRAME.comment).refuse(str(shape.frame), expected)
+            name = f"{'box' if isinstance(shape, BoxShape) else 'capsule'} {counts[type(shape)]}"
+            there = place.at("look").at(name).at("key 'frame'", f"frame: {_FRAME.comment}.")
+            there.refuse(str(shape.frame), f"0 to {dof + 1} for an arm of {dof} joints")
 
 
 def _check_masses(masses: int, dof: int, place: Place) -> None:

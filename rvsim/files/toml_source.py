@@ -1,9 +1,11 @@
-"""The bytes of a TOML file, and the one clear error when they are none."""
+"""The text of a TOML file, and the one clear error when it has none."""
 
 from __future__ import annotations
 
+import re
 import stat
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,48 +13,34 @@ from rvsim.errors import RobotFileError
 
 LARGEST = 256 * 1024  # [bytes]; the largest of our own has a twentieth of it
 _AS_UTF8 = "Save it as UTF-8 text."
+_NOWHERE = r"(?!)"
 
 
-def read_toml(path: Path) -> dict[str, Any]:
-    """The tables of a TOML file.
-
-    Raises:
-        RobotFileError: it cannot be opened, is no regular file, is too large, is no UTF-8 or no TOML.
-    """
-    return tables_from(path, _bytes_of(path))
-
-
-def tables_from(path: object, data: bytes) -> dict[str, Any]:
-    """The tables that the bytes of a TOML file hold; `path` is for the message.
+def read_bytes(path: Path) -> bytes:
+    """What is in a file, and never more than just too much of it.
 
     Raises:
-        RobotFileError: they are too many, no UTF-8 or no TOML.
+        RobotFileError: it cannot be opened or is no regular file.
     """
-    if len(data) > LARGEST:
-        raise RobotFileError(path, "the file", "a large file", f"at most {LARGEST // 1024} kB of text")
-    try:
-        return tomllib.loads(_text_of(path, data))
-    except RecursionError:
-        raise RobotFileError(path, "the file", "lists nested too deeply", "tables of plain keys") from None
-    except ValueError as problem:  # a TOMLDecodeError, or Python's refusal of an integer of thousands of digits
-        raise RobotFileError(path, *_syntax(str(problem)), "Texts stand in quotes, lists in brackets.") from None
-
-
-def _bytes_of(path: Path) -> bytes:
     try:
         if not stat.S_ISREG(path.stat().st_mode):
             found = "a folder" if path.is_dir() else "something that is no file"
             raise RobotFileError(path, "the file", found, "a robot file (.toml)")
         with path.open("rb") as file:
             return file.read(LARGEST + 1)
-    except (OSError, ValueError) as problem:
-        if isinstance(problem, RobotFileError):
-            raise
-        reason = problem.strerror if isinstance(problem, OSError) and problem.strerror else str(problem)
-        raise RobotFileError(path, "the file", reason.lower(), "a file that can be read") from None
+    except OSError as problem:
+        reason = (problem.strerror or str(problem)).lower()
+        raise RobotFileError(path, "the file", reason, "a file that can be read") from None
 
 
-def _text_of(path: object, data: bytes) -> str:
+def text_of(data: bytes, path: object) -> str:
+    """The bytes as text; `path` is for the message.
+
+    Raises:
+        RobotFileError: they are too many or no UTF-8.
+    """
+    if len(data) > LARGEST:
+        raise RobotFileError(path, "the file", "a large file", f"at most {LARGEST // 1024} kB of text")
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise RobotFileError(path, "the file", "UTF-16 text", "UTF-8 text", _AS_UTF8)
     try:
@@ -63,7 +51,52 @@ def _text_of(path: object, data: bytes) -> str:
         raise RobotFileError(path, f"line {line}", found, "UTF-8 text", _AS_UTF8) from None
 
 
+def tables_of(text: str, path: object) -> dict[str, Any]:
+    """The tables of a TOML text; `path` is for the message.
+
+    Raises:
+        RobotFileError: it is no TOML.
+    """
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise RobotFileError(path, "the file", "lists nested too deeply", "tables of plain keys") from None
+    except ValueError as problem:  # a TOMLDecodeError, or Python's refusal of an integer of thousands of digits
+        raise RobotFileError(path, *_syntax(str(problem)), "Texts stand in quotes, lists in brackets.") from None
+
+
+def line_of(text: str, steps: Sequence[str]) -> int:
+    """The line of a place such as ("joint 3", "key 'alpha'"), as near as it can be told; 0 if it cannot."""
+    lines, found = text.splitlines(), -1
+    for step in steps:
+        nearer = _line_of_step(lines, found + 1, step)
+        if nearer < 0:
+            break
+        found = nearer
+    return found + 1
+
+
+def _line_of_step(lines: list[str], start: int, step: str) -> int:
+    if step.startswith("key "):
+        pattern, number = rf"\s*{re.escape(step[5:-1])}\s*=", 1
+        return _nth(pattern, lines, start, number, until=r"\s*\[")
+    name, _, digits = step.partition(" ")
+    return _nth(rf"\s*\[+\s*{re.escape(name)}\s*\]", lines, start, int(digits) if digits.isdecimal() else 1)
+
+
+def _nth(pattern: str, lines: list[str], start: int, number: int, until: str = _NOWHERE) -> int:
+    for index in range(start, len(lines)):
+        if re.match(until, lines[index]):
+            break
+        number -= bool(re.match(pattern, lines[index]))
+        if number == 0:
+            return index
+    return -1
+
+
 def _syntax(message: str) -> tuple[str, str, str]:
-    # tomllib says "Invalid value (at line 3, column 9)".
+    # tomllib says "Invalid value (at line 3, column 9)"; Python alone speaks of the digits.
     what, _, place = message.partition(" (at ")
+    if "digits" in what:
+        what = "an integer of thousands of digits"
     return place.rstrip(")") or "the file", what[:1].lower() + what[1:], "TOML"
