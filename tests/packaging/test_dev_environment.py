@@ -37,13 +37,17 @@ def test_extras_alone_are_no_reason_to_make_it_anew_but_are_added() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "word"),
-    [({"place": "/there/.venv"}, "copied"), ({"python": "3.12.1"}, "another Python"), ({"pins": "def"}, "changed")],
+    ("place", "python", "pins", "word"),
+    [
+        ("/there/.venv", "3.11.2", "abc", "copied"),
+        ("/here/.venv", "3.12.1", "abc", "another Python"),
+        ("/here/.venv", "3.11.2", "def", "changed"),
+    ],
 )
-def test_a_copied_one_another_python_and_other_pins_are_reasons(changes: dict[str, str], word: str) -> None:
+def test_a_copied_one_another_python_and_other_pins_are_reasons(place: str, python: str, pins: str, word: str) -> None:
     from dev_environment import reason_to_make
 
-    assert word in (reason_to_make(_stamp(**changes), _stamp(), exists=True, starts=True) or "")
+    assert word in (reason_to_make(_stamp(place, python, pins), _stamp(), exists=True, starts=True) or "")
 
 
 def test_a_missing_a_half_made_and_a_broken_one_are_made_anew() -> None:
