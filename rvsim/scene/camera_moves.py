@@ -1,0 +1,67 @@
+"""Moves of the camera that need more than the camera: framing what is to be seen, and going there smoothly."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rvsim.scene.camera import Camera
+
+FloatArray = NDArray[np.float64]
+
+_ROUNDS = 4  # framing converges by a factor of about ten a round
+# The reach of an arm is round: eight directions at three heights hold it, while the corners of its box stay empty.
+_TURN = np.linspace(0.0, math.tau, 8, endpoint=False) + math.pi / 8
+_OCTAGON = np.stack([np.cos(_TURN), np.sin(_TURN)], axis=1) / math.cos(math.pi / 8)
+_RINGS = ((-1.0, 1.0), (0.2, 1.0), (1.0, 0.55))  # (height, width), each relative to half the box
+
+
+def framed(camera: Camera, bounds: ArrayLike, width: float, height: float, margin: float = 0.04) -> Camera:
+    """From the same direction, with what an arm reaches inside `bounds` (2, 3) [m] in the middle and as large as fits.
+
+    Args:
+        margin: the share of the picture that stays free at each side.
+    """
+    points = dome(bounds)
+    framing = camera.fitted(bounds, width, height)
+    for _ in range(_ROUNDS):
+        low, high = _pixel_box(framing, points, width, height)
+        middle = (low + high) / 2
+        framing = framing.panned(width / 2 - middle[0], height / 2 - middle[1], height)
+        room = (1.0 - 2.0 * margin) * np.array([width, height])
+        factor = float(np.min(room / np.maximum(high - low, 1e-6)))
+        framing = framing.zoomed(factor, width / 2, height / 2, width, height)
+    return framing
+
+
+def _pixel_box(camera: Camera, points: FloatArray, width: float, height: float) -> tuple[FloatArray, FloatArray]:
+    pixels = camera.project(points, width, height)[:, :2]
+    return pixels.min(axis=0), pixels.max(axis=0)
+
+
+def dome(bounds: ArrayLike) -> FloatArray:
+    """(24, 3) points around a round body that fills the box `bounds` (2, 3)."""
+    lower, upper = np.asarray(bounds, dtype=np.float64)
+    rings = [np.column_stack([width * _OCTAGON, np.full(len(_OCTAGON), level)]) for level, width in _RINGS]
+    return np.asarray((lower + upper) / 2 + np.concatenate(rings) * (upper - lower) / 2)
+
+
+def blended(start: Camera, end: Camera, share: float) -> Camera:
+    """The camera at `share` 0…1 of the way from one to the other: the short way round, even in its zoom."""
+    turn = math.remainder(end.azimuth - start.azimuth, math.tau)
+    return replace(
+        end,
+        target=start.target + share * (end.target - start.target),
+        distance=start.distance * (end.distance / start.distance) ** share,
+        azimuth=start.azimuth + share * turn,
+        elevation=start.elevation + share * (end.elevation - start.elevation),
+    )
+
+
+def same_view(one: Camera, other: Camera) -> bool:
+    """Whether both see exactly the same."""
+    numbers = ("distance", "azimuth", "elevation", "field_of_view", "orthographic")
+    return np.array_equal(one.target, other.target) and all(getattr(one, n) == getattr(other, n) for n in numbers)

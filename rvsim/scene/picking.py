@@ -1,0 +1,60 @@
+"""What lies under the pointer."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rvsim.scene.camera import Camera, Ray
+from rvsim.scene.floor import FLOOR_KEY
+from rvsim.scene.primitives import Box, Capsule, Dots, Item, Labels, Polyline, Scene, Segments
+
+FloatArray = NDArray[np.float64]
+
+
+def point_under(
+    scene: Scene, camera: Camera, x: float, y: float, width: float, height: float, within: float = 30.0
+) -> FloatArray | None:
+    """The point (3,) of the scene [m] nearest to pixel (x, y), else the floor there; None where there is neither.
+
+    Args:
+        within: how many pixels a point may be away.
+    """
+    near = nearest_point(scene, camera, x, y, width, height, within)
+    return near if near is not None else floor_point(camera.ray(x, y, width, height), scene.bounds)
+
+
+def nearest_point(
+    scene: Scene, camera: Camera, x: float, y: float, width: float, height: float, within: float
+) -> FloatArray | None:
+    """The point (3,) of arm or path that is projected nearest to a pixel, not farther than `within` pixels."""
+    arrays = [_points(item) for item in scene.items if not item.key.startswith(FLOOR_KEY)]
+    points = np.concatenate([np.empty((0, 3)), *arrays])
+    projected = camera.project(points, width, height)
+    gaps = np.hypot(projected[:, 0] - x, projected[:, 1] - y)
+    hidden = ~np.isfinite(gaps) if camera.orthographic else ~(np.isfinite(gaps) & (projected[:, 2] > 0.0))
+    gaps[hidden] = np.inf
+    if not len(gaps) or gaps.min() > within:
+        return None
+    found: FloatArray = points[int(np.argmin(gaps))]
+    return found
+
+
+def floor_point(ray: Ray, bounds: FloatArray) -> FloatArray | None:
+    """Where a ray meets the floor z = 0 within twice the bounds (2, 3), or None."""
+    if abs(ray.direction[2]) < 1e-9:
+        return None
+    way = -ray.origin[2] / ray.direction[2]
+    point: FloatArray = ray.origin + way * ray.direction
+    inside = np.abs(point - bounds.mean(axis=0))[:2] <= np.ptp(bounds, axis=0)[:2]
+    return point if way > 0.0 and bool(inside.all()) else None
+
+
+def _points(item: Item) -> FloatArray:
+    if isinstance(item, Polyline | Segments | Dots):
+        return item.points
+    if isinstance(item, Capsule):
+        return item.start + np.linspace(0.0, 1.0, 9)[:, None] * (item.end - item.start)
+    if isinstance(item, Box):
+        return item.T_base_box[None, :3, 3]
+    return np.empty((0, 3)) if isinstance(item, Labels) else item.T_base_frame[:, :3, 3]
