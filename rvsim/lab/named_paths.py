@@ -60,10 +60,10 @@ def _line(wish: _Wish) -> FloatArray:
 
 
 def _star(wish: _Wish) -> FloatArray:
-    """About the middle of the arm's first line, as large as its fifth."""
+    """About the middle of the arm's first line, a third of its length across."""
     preset = line_presets(wish.robot)[0]
     size = float(np.linalg.norm(preset.end - preset.start))
-    return drawings.star(0.5 * (preset.start + preset.end), 0.2 * size, wish.samples or 101)
+    return drawings.star(0.5 * (preset.start + preset.end), size / 6.0, wish.samples or 101)
 
 
 def _curve(draw: Callable[[int], FloatArray], samples: int) -> Callable[[_Wish], FloatArray]:

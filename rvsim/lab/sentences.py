@@ -1,0 +1,139 @@
+"""What came of tracking, as sentences about the arm: how many points, which not, why, and what would help."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+
+from rvsim.motion import Tracking, Unreached
+from rvsim.robot import Robot
+from rvsim.units import degrees_from_radians, millimetres_from_metres
+
+MINUS = "\u2212"
+_FEWEST_JOINTS_TO_TURN = 4
+
+
+def tracking_sentence(tracking: Tracking) -> str:
+    """All of it: "4 of 11 points reached within the limits; 7 not: points 1–6: the elbow needs −156.7° … −116.9° and
+    stops at −110°; point 11: the wrist pitch needs −94.7°, stops at −90°."."""
+    missed = tracking.samples - tracking.reached_count
+    if not missed:
+        return short_sentence(tracking)
+    start, why = short_sentence(tracking).removesuffix("."), reasons(tracking)
+    if missed == tracking.samples and len(why) == 1:
+        return f"{start}: {why[0].split(': ', 1)[1]}."
+    return f"{start}; {missed} not: {'; '.join(reasons(tracking))}."
+
+
+def short_sentence(tracking: Tracking) -> str:
+    """How many points were reached: "4 of 11 points reached within the limits."."""
+    within = "without regard to the limits" if tracking.ignore_limits else "within the limits"
+    if tracking.complete:
+        count = "The one point" if tracking.samples == 1 else f"All {tracking.samples} points"
+        return f"{count} reached {within}{_jump_clause(tracking)}."
+    if not tracking.reached_count:
+        return f"None of {_points(tracking.samples)} reached {within}."
+    return f"{tracking.reached_count} of {_points(tracking.samples)} reached {within}{_jump_clause(tracking)}."
+
+
+def reasons(tracking: Tracking) -> tuple[str, ...]:
+    """One clause for each stretch of points that failed for the same reason; points are counted from 1."""
+    return tuple(f"{_which(group)}: {_why(tracking, group)}" for group in _groups(tracking.unreached))
+
+
+def deviation_sentence(tracking: Tracking) -> str:
+    """RMS and largest deviation over the reached points, and what the solving took."""
+    if tracking.rms is None or tracking.max_deviation is None:
+        return "No point was reached: there is no deviation to tell."
+    over = "all points" if tracking.complete else f"the {_points(tracking.reached_count)} reached"
+    rms, largest = (length_error(tracking.robot, error) for error in (tracking.rms, tracking.max_deviation))
+    milliseconds = 1e3 * tracking.solve_seconds
+    return f"RMS {rms} over {over}, largest {largest}; solved in {milliseconds:.1f} ms."
+
+
+def advice_sentence(tracking: Tracking) -> str:
+    """What would help, "" where everything was reached."""
+    kinds = {point.kind for point in tracking.unreached}
+    if not kinds:
+        return ""
+    turns = tracking.path.rotations is not None and tracking.robot.dof >= _FEWEST_JOINTS_TO_TURN
+    free = "leave the orientation free" if tracking.robot.dof != 5 else "leave the pitch free"
+    choices = [
+        *([free] if turns and kinds & {"orientation", "limits"} else []),
+        *(["ignore the limits"] if "limits" in kinds else []),
+        "move the path nearer to where the arm can work" if "reach" in kinds else "move the path",
+    ]
+    text = choices[0] if len(choices) == 1 else f"{', '.join(choices[:-1])}, or {choices[-1]}"
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def joint_amount(robot: Robot, joint: str, value: float) -> str:
+    """A joint's value [rad, m] for the eye: "−156.7°", "12.5 mm", "1.5 units"."""
+    if robot.is_revolute[robot.joint_names.index(joint)]:
+        return f"{_plain(degrees_from_radians(value))}°"
+    if robot.length_unit == "unit":
+        return f"{_plain(value, decimals=3)} units"
+    return f"{_plain(millimetres_from_metres(value))} mm"
+
+
+def length_error(robot: Robot, error: float) -> str:
+    """A deviation [m] in scientific notation, never rounded to 0."""
+    value, unit = (error, "units") if robot.length_unit == "unit" else (millimetres_from_metres(error), "mm")
+    return f"{value:.1e} {unit}".replace("-", MINUS)
+
+
+def _plain(value: float, decimals: int = 1) -> str:
+    text = f"{round(value, decimals) + 0.0:.{decimals}f}"
+    return text.rstrip("0").rstrip(".").replace("-", MINUS)
+
+
+def _points(count: int) -> str:
+    return "1 point" if count == 1 else f"{count} points"
+
+
+def _jump_clause(tracking: Tracking) -> str:
+    if not tracking.jumps:
+        return ""
+    times = "a change of branch" if len(tracking.jumps) == 1 else f"{len(tracking.jumps)} changes of branch"
+    return f", with {times} on the way"
+
+
+def _groups(unreached: Iterable[Unreached]) -> list[list[Unreached]]:
+    """Neighbours that failed for the same reason, at the same stop."""
+    points = list(unreached)
+    groups = [[point] for point in points[:1]]
+    for before, after in pairwise(points):
+        if after.index == before.index + 1 and _cause(after) == _cause(before):
+            groups[-1].append(after)
+        else:
+            groups.append([after])
+    return groups
+
+
+def _cause(point: Unreached) -> tuple[str, str | None, float | None]:
+    return point.kind, point.joint, point.limit
+
+
+def _which(group: list[Unreached]) -> str:
+    first, last = group[0].index + 1, group[-1].index + 1
+    return f"point {first}" if first == last else f"points {first}–{last}"
+
+
+def _why(tracking: Tracking, group: list[Unreached]) -> str:
+    point = group[0]
+    if point.kind == "reach":
+        return "out of reach in any orientation"
+    if point.kind == "orientation" or point.joint is None or point.value is None or point.limit is None:
+        return "in reach, but not in this orientation"
+    limit = point.limit
+    needed = sorted((p.value for p in group if p.value is not None), key=lambda value: -abs(value - limit))
+    most, least = (joint_amount(tracking.robot, point.joint, value) for value in (needed[0], needed[-1]))
+    stop = joint_amount(tracking.robot, point.joint, limit)
+    if most == least:
+        return f"{_joint(point.joint)} needs {most}, stops at {stop}"
+    return f"{_joint(point.joint)} needs {most} … {least} and stops at {stop}"
+
+
+def _joint(name: str) -> str:
+    """With an article where the name is a word."""
+    return f"the {name}" if name.replace(" ", "").isalpha() else name
