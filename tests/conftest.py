@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -27,3 +29,10 @@ def qapp_args() -> list[str]:
 def _own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Settings, logs and robot files go to a folder of this test, never to the user's."""
     monkeypatch.setenv("RVSIM_USER_FOLDER", str(tmp_path / "rvsim-user"))
+
+
+@pytest.fixture(scope="session")
+def oracle() -> dict[str, Any]:
+    """Reference poses, Jacobians, branches and torques, made by code independent of this project."""
+    loaded: dict[str, Any] = json.loads((Path(__file__).parent / "oracles" / "oracle.json").read_text(encoding="utf-8"))
+    return loaded
