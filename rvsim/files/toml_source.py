@@ -78,19 +78,19 @@ def line_of(text: str, steps: Sequence[str]) -> int:
 
 def _line_of_step(lines: list[str], start: int, step: str) -> int:
     if step.startswith("key "):
-        pattern, number = rf"\s*{re.escape(step[5:-1])}\s*=", 1
-        return _nth(pattern, lines, start, number, until=r"\s*\[")
+        name = re.escape(step[5:-1])
+        return _nth(rf"\s*({name}\s*=|\[+\s*{name}\s*\])", lines, start, 1, until=r"\s*\[" if start else _NOWHERE)
     name, _, digits = step.partition(" ")
     return _nth(rf"\s*\[+\s*{re.escape(name)}\s*\]", lines, start, int(digits) if digits.isdecimal() else 1)
 
 
 def _nth(pattern: str, lines: list[str], start: int, number: int, until: str = _NOWHERE) -> int:
     for index in range(start, len(lines)):
-        if re.match(until, lines[index]):
-            break
         number -= bool(re.match(pattern, lines[index]))
         if number == 0:
             return index
+        if re.match(until, lines[index]):
+            break
     return -1
 
 
@@ -98,5 +98,5 @@ def _syntax(message: str) -> tuple[str, str, str]:
     # tomllib says "Invalid value (at line 3, column 9)"; Python alone speaks of the digits.
     what, _, place = message.partition(" (at ")
     if "digits" in what:
-        what = "an integer of thousands of digits"
-    return place.rstrip(")") or "the file", what[:1].lower() + what[1:], "TOML"
+        what = "an integer has thousands of digits"
+    return place.rstrip(")") or "the file", f"a mistake ({what[:1].lower() + what[1:]})", "TOML"
