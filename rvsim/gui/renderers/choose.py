@@ -108,6 +108,7 @@ class ResilientRenderer(QObject):
         self._scene: Scene | None = None
         self._camera: Camera | None = None
         self._report: Callable[[float], None] | None = None
+        self._failure = ""
         if on_change is not None:
             self.changed.connect(on_change)
         self._renderer = self._start(samples)
@@ -117,6 +118,7 @@ class ResilientRenderer(QObject):
         from rvsim.gui.renderers.opengl import OpenGLRenderer
 
         renderer = OpenGLRenderer(self._place, samples)
+        renderer.failed.connect(self._note)
         # Queued: a widget must not be replaced while it paints.
         renderer.failed.connect(self._fall_back, Qt.ConnectionType.QueuedConnection)
         self._show(renderer)
@@ -128,7 +130,13 @@ class ResilientRenderer(QObject):
         if layout is not None:
             layout.addWidget(renderer.widget())
 
-    def _fall_back(self, reason: str) -> None:
+    def _note(self, reason: str) -> None:
+        self._failure = reason
+
+    def _fall_back(self) -> None:
+        if not self._failure:
+            return
+        reason, self._failure = self._failure, ""
         broken = self._renderer.widget()
         self._renderer = _make_painter(self._place)
         self._show(self._renderer)
@@ -161,8 +169,12 @@ class ResilientRenderer(QObject):
         self._renderer.set_camera(camera)
 
     def image(self) -> QImage:
-        """The picture as it is on the screen."""
-        return self._renderer.image()
+        """The picture as it would be painted now."""
+        picture = self._renderer.image()
+        if self._failure:
+            self._fall_back()
+            picture = self._renderer.image()
+        return picture
 
     def on_painted(self, report: Callable[[float], None]) -> None:
         """From now on `report(milliseconds)` is called after each paint with the time that it took."""

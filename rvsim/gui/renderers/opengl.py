@@ -9,28 +9,23 @@ from typing import NamedTuple
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QImage, QMatrix4x4, QOpenGLContext, QSurfaceFormat
-from PySide6.QtOpenGL import QOpenGLFramebufferObject
+from PySide6.QtOpenGL import QOpenGLFramebufferObject, QOpenGLFramebufferObjectFormat
 from PySide6.QtWidgets import QWidget
 
 from rvsim.errors import RvsimError
 from rvsim.gui.renderers.opengl_binding import GL, GLViewWidget
+from rvsim.gui.renderers.opengl_bodies import BodyLayer, GhostLayer, PlateLayer, ShadowLayer
 from rvsim.gui.renderers.opengl_context import probe_opengl
+from rvsim.gui.renderers.opengl_frame import Frame, to_qt
 from rvsim.gui.renderers.opengl_labels import LabelLayer
-from rvsim.gui.renderers.opengl_layers import (
-    BodyLayer,
-    Frame,
-    GhostLayer,
-    PlateLayer,
-    ShadowLayer,
-    StrokeLayer,
-    to_qt,
-)
+from rvsim.gui.renderers.opengl_strokes import StrokeLayer
 from rvsim.gui.renderers.painter_ink import qcolor
 from rvsim.scene import Box, Camera, Capsule, Color, Dots, Labels, Polyline, Scene, Segments, Triads
 from rvsim.scene.floor import FLOOR_KEY
 from rvsim.scene.palette import DARK, LIGHT, luminance
 
 _PROOF = 16  # pixels
+_PICTURE_SAMPLES = 4
 _LINES = (Polyline, Segments, Dots)
 _START = Camera(np.zeros(3), 3.0)
 
@@ -40,6 +35,17 @@ class NothingPaintedError(RvsimError):
 
     def __init__(self) -> None:
         super().__init__("it reports no error but paints nothing")
+
+
+def _canvas(width: int, height: int, samples: int) -> QOpenGLFramebufferObject:
+    """A picture beside the screen to paint on, of so many pixels; the context must be current."""
+    form = QOpenGLFramebufferObjectFormat()
+    form.setAttachment(QOpenGLFramebufferObject.Attachment.CombinedDepthStencil)
+    form.setSamples(samples)
+    canvas = QOpenGLFramebufferObject(max(width, 1), max(height, 1), form)
+    canvas.bind()
+    QOpenGLContext.currentContext().functions().glViewport(0, 0, width, height)
+    return canvas
 
 
 class _Layers(NamedTuple):
@@ -159,6 +165,7 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
 
     def _paint(self) -> None:
         self.frame = self._frame_of(self.width(), self.height())
+        self.frame.functions.glEnable(GL.GL_MULTISAMPLE)  # the texts' painter has switched it off
         super().paintGL()
 
     def _frame_of(self, width: int, height: int) -> Frame:
@@ -172,12 +179,23 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
             self.devicePixelRatioF(),
         )
 
+    def picture(self) -> QImage:
+        """What a paint would show now, smoothed even where the screen is not."""
+        if not self.isValid():
+            self.grabFramebuffer()  # makes the context of a widget that has never been shown
+        self.makeCurrent()
+        target = _canvas(self.deviceWidth(), self.deviceHeight(), _PICTURE_SAMPLES)
+        self._guarded(self._paint)
+        target.release()
+        picture = target.toImage().convertToFormat(QImage.Format.Format_RGB32)
+        picture.setDevicePixelRatio(self.devicePixelRatioF())
+        self.doneCurrent()
+        return picture
+
     def _prove(self) -> None:
         """Paint a white dot on black beside the screen and look at it: drivers may fail without an error."""
-        target = QOpenGLFramebufferObject(_PROOF, _PROOF, QOpenGLFramebufferObject.Attachment.Depth)
-        target.bind()
+        target = _canvas(_PROOF, _PROOF, 0)
         self.frame = self._frame_of(_PROOF, _PROOF)._replace(pixel_ratio=1.0)
-        self.frame.functions.glViewport(0, 0, _PROOF, _PROOF)
         GL.glClearColor(0.0, 0.0, 0.0, 1.0)
         GL.glClear(GL.GL_COLOR_BUFFER_BIT | GL.GL_DEPTH_BUFFER_BIT)
         dot = StrokeLayer()
@@ -223,9 +241,8 @@ class OpenGLRenderer:
         self._view.update()
 
     def image(self) -> QImage:
-        """The picture as it would be painted now, texts included, in the pixels of the screen."""
-        picture: QImage = self._view.grabFramebuffer()
-        return picture
+        """The picture as it would be painted now, texts included, in the pixels of the screen, with smooth edges."""
+        return self._view.picture()
 
     def on_painted(self, report: Callable[[float], None]) -> None:
         """From now on `report(milliseconds)` is called after each frame: from the first call until it is shown."""

@@ -7,9 +7,10 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtGui import QPainter
+from PySide6.QtOpenGL import QOpenGLPaintDevice
 
 from rvsim.gui.renderers.opengl_binding import GLGraphicsItem
-from rvsim.gui.renderers.opengl_layers import Frame
+from rvsim.gui.renderers.opengl_frame import Frame
 from rvsim.gui.renderers.painter_lines import draw_text
 from rvsim.scene import Color, Label, Labels, Triads
 from rvsim.scene.palette import axis_colors
@@ -44,7 +45,10 @@ class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
         if not self._labels and not self._triads:
             return
         frame: Frame = self.view().frame
-        painter = QPainter(self.view())
+        # What is bound is painted on, be it the screen or a picture beside it.
+        device = QOpenGLPaintDevice(round(frame.width * frame.pixel_ratio), round(frame.height * frame.pixel_ratio))
+        device.setDevicePixelRatio(frame.pixel_ratio)
+        painter = QPainter(device)
         for item in self._triads:
             self._draw_letters(painter, frame, item)
         self._draw_labels(painter, frame)

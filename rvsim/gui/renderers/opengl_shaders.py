@@ -24,7 +24,11 @@ attribute vec3 position;
 attribute vec3 normal;
 attribute float end;
 varying vec3 eye_normal;
+varying vec3 own_normal;
+varying vec3 own_place;
 void main() {
+    own_normal = normal;
+    own_place = position;
     eye_normal = (model_view * vec4(normal, 0.0)).xyz;
     gl_Position = projection * (model_view * vec4(position * scale + vec3(0.0, 0.0, stretch * end), 1.0));
 }
@@ -35,7 +39,17 @@ BODY_FRAGMENT = """
 uniform vec4 color;
 uniform float lit;
 uniform float gloss;
+uniform float edges;
 varying vec3 eye_normal;
+varying vec3 own_normal;
+varying vec3 own_place;
+
+// How far an edge of the unit box is, in pixels; the third direction, across the face, has none.
+float to_edge() {
+    vec3 pixels = (0.5 - abs(own_place)) / max(fwidth(own_place), 1e-9) + 1e3 * abs(own_normal);
+    return min(min(pixels.x, pixels.y), pixels.z);
+}
+
 void main() {
     vec3 n = normalize(eye_normal);
     vec3 light = normalize(vec3(-0.42, 0.68, 0.60));
@@ -43,6 +57,7 @@ void main() {
     float matt = 0.46 + 0.50 * max(dot(n, light), 0.0) + 0.10 * n.y;
     float shine = 0.30 * gloss * pow(max(dot(n, halfway), 0.0), 22.0);
     vec3 shaded = color.rgb * matt + shine * (1.0 - 0.5 * color.rgb);
+    if (edges > 0.0) shaded *= 1.0 - edges * clamp(1.5 - to_edge(), 0.0, 1.0);
     result = vec4(mix(color.rgb, shaded, lit), color.a);
 }
 """

@@ -1,0 +1,175 @@
+"""The layers of solid bodies. An item that is the same object as before is left alone; others are only moved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from PySide6.QtGui import QMatrix4x4
+
+from rvsim.gui.renderers.opengl_binding import GL, GLGraphicsItem
+from rvsim.gui.renderers.opengl_buffers import BODY_LAYOUT, Pipeline, Vertices
+from rvsim.gui.renderers.opengl_frame import Frame, blend, to_qt, use_depth
+from rvsim.gui.renderers.opengl_meshes import box_body, capsule_body, capsule_transform
+from rvsim.gui.renderers.opengl_shaders import body_program
+from rvsim.scene import Box, Capsule, Color
+
+Body = Capsule | Box
+
+# The shadow is drawn once for each of these widths, so that it is softer towards its rim.
+_SOFTNESS = (1.5, 1.15, 0.8)
+_ONTO_FLOOR = QMatrix4x4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1)
+
+
+class _Placed(NamedTuple):
+    item: Body
+    shape: str
+    place: QMatrix4x4
+    scale: tuple[float, float, float]
+    stretch: float
+
+
+def _place(item: Body) -> _Placed | None:
+    """Where a body goes; None if it is nowhere."""
+    if isinstance(item, Capsule):
+        matrix, stretch = capsule_transform(item.start, item.end)
+        sizes, shape = np.full(3, item.radius), "capsule"
+    else:
+        matrix, stretch = np.asarray(item.T_base_box, dtype=np.float64), 0.0
+        sizes, shape = np.asarray(item.size, dtype=np.float64), "box"
+    if not (np.isfinite(matrix).all() and np.isfinite(sizes).all()):
+        return None
+    return _Placed(item, shape, to_qt(matrix), (float(sizes[0]), float(sizes[1]), float(sizes[2])), stretch)
+
+
+@cache
+def _bodies() -> dict[str, Vertices]:
+    # Shared by all views of the program: their contexts share what lies in graphics memory.
+    return {"capsule": Vertices(capsule_body()), "box": Vertices(box_body())}
+
+
+class BodyLayer(GLGraphicsItem):  # type: ignore[misc]
+    """Capsules and boxes, all drawn from two shared unit bodies."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._placed: dict[str, _Placed] = {}
+        self._pipeline: Pipeline | None = None
+
+    def initializeGL(self) -> None:
+        """Compile the program; a context made anew asks again."""
+        self._pipeline = Pipeline(body_program(), BODY_LAYOUT)
+
+    def show_items(self, items: Iterable[Body]) -> None:
+        """Show exactly these."""
+        old, self._placed = self._placed, {}
+        for item in items:
+            known = old.get(item.key)
+            placed = known if known is not None and known.item is item else _place(item)
+            if placed is not None:
+                self._placed[item.key] = placed
+
+    def paint(self) -> None:
+        """Draw what there is into the view."""
+        if self._placed and self._pipeline is not None:
+            frame: Frame = self.view().frame
+            self._pipeline.bind()
+            self._pipeline.set_matrix("projection", frame.projection)
+            self._pipeline.set_number("lit", 1.0)
+            self.draw(frame, self._pipeline)
+            self._pipeline.release()
+
+    def draw(self, frame: Frame, pipeline: Pipeline) -> None:
+        """Draw all bodies, hidden by what stands before them."""
+        gl = frame.functions
+        use_depth(gl, True)
+        gl.glDisable(GL.GL_BLEND)
+        gl.glEnable(GL.GL_CULL_FACE)
+        _draw_bodies(self._placed.values(), frame, pipeline)
+        gl.glDisable(GL.GL_CULL_FACE)
+
+
+def _draw_bodies(bodies: Iterable[_Placed], frame: Frame, pipeline: Pipeline) -> None:
+    for shape, vertices in _bodies().items():
+        alike = [body for body in bodies if body.shape == shape]
+        if alike:
+            pipeline.read_from(vertices)
+            pipeline.set_number("gloss", 1.0 if shape == "capsule" else 0.3)
+            pipeline.set_number("edges", 0.0 if shape == "capsule" else 0.14)
+        for body in alike:
+            pipeline.set_matrix("model_view", frame.view * body.place)
+            pipeline.set_vector("scale", *body.scale)
+            pipeline.set_number("stretch", body.stretch)
+            pipeline.set_color("color", body.item.color)
+            frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)
+
+
+class PlateLayer(BodyLayer):
+    """The floor's plate: under everything, in its own colour whatever the light."""
+
+    def draw(self, frame: Frame, pipeline: Pipeline) -> None:
+        """Draw without a depth, so that nothing is hidden by the floor."""
+        use_depth(frame.functions, False)
+        frame.functions.glDisable(GL.GL_BLEND)
+        pipeline.set_number("lit", 0.0)
+        _draw_bodies(self._placed.values(), frame, pipeline)
+
+
+class GhostLayer(BodyLayer):
+    """Translucent bodies behind all others: those of one alpha are seen as one pane of glass, the faintest behind."""
+
+    def draw(self, frame: Frame, pipeline: Pipeline) -> None:
+        """Draw each pane into the depth buffer first, then what of it is nearest, then forget the depth."""
+        gl = frame.functions
+        use_depth(gl, True)
+        blend(gl)
+        gl.glEnable(GL.GL_CULL_FACE)
+        for alpha in sorted({body.item.color.alpha for body in self._placed.values()}):
+            pane = [body for body in self._placed.values() if body.item.color.alpha == alpha]
+            gl.glColorMask(False, False, False, False)
+            _draw_bodies(pane, frame, pipeline)
+            gl.glColorMask(True, True, True, True)
+            _draw_bodies(pane, frame, pipeline)
+            gl.glClear(GL.GL_DEPTH_BUFFER_BIT)
+        gl.glDisable(GL.GL_CULL_FACE)
+
+
+class ShadowLayer(BodyLayer):
+    """The soft shadow of the bodies on the floor, as if the light stood right above."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._color = Color(0.0, 0.0, 0.0)
+
+    def show_shadow(self, items: Iterable[Body], color: Color) -> None:
+        """Show the shadow of exactly these."""
+        self._color = color.faded(1.0 / len(_SOFTNESS))
+        self.show_items(items)
+
+    def draw(self, frame: Frame, pipeline: Pipeline) -> None:
+        """Draw all bodies flat; the stencil lets each width darken a pixel once."""
+        gl = frame.functions
+        use_depth(gl, False)
+        blend(gl)
+        gl.glEnable(GL.GL_STENCIL_TEST)
+        gl.glClear(GL.GL_STENCIL_BUFFER_BIT)
+        gl.glStencilOp(GL.GL_KEEP, GL.GL_KEEP, GL.GL_INCR)
+        pipeline.set_number("lit", 0.0)
+        pipeline.set_color("color", self._color)
+        for order, width in enumerate(_SOFTNESS):
+            gl.glStencilFunc(GL.GL_EQUAL, order, 0xFF)
+            self._draw_flat(frame, pipeline, width)
+        gl.glDisable(GL.GL_STENCIL_TEST)
+
+    def _draw_flat(self, frame: Frame, pipeline: Pipeline, width: float) -> None:
+        on_floor = frame.view * _ONTO_FLOOR
+        for body in self._placed.values():
+            vertices = _bodies()[body.shape]
+            wider = width if body.shape == "capsule" else 0.75 + 0.25 * width
+            pipeline.read_from(vertices)
+            pipeline.set_matrix("model_view", on_floor * body.place)
+            pipeline.set_vector("scale", *(wider * edge for edge in body.scale))
+            pipeline.set_number("stretch", body.stretch)
+            frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)
