@@ -12,7 +12,7 @@ USAGE = """usage: python3 packaging/dev.py COMMAND [arguments]
   run    start rvsim; arguments are passed on to it
   test   run every check: ruff, mypy, and the tests without and with OpenGL; arguments are passed on to pytest
   bench  measure the speed of rvsim against other libraries; arguments name benchmarks, for instance: forward
-  soak   run the long random tests; arguments name them
+  soak   run the long random tests; arguments name them, and options are passed on, for instance: --count 10000
 
 The first use makes .venv in this folder and installs everything there; nothing outside this folder is touched,
 except for system packages when you are root on Debian or Ubuntu."""

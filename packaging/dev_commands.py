@@ -5,18 +5,28 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from itertools import takewhile
 from pathlib import Path
 
 import dev_environment
+import dev_screen
 import dev_system
 from dev_environment import ROOT
 from dev_system import SetupError
 
-BENCH = dev_environment.Kind(".venv-bench", "bench-constraints.txt", ("roboticstoolbox-python", "pin"))
+BENCH = dev_environment.Kind(
+    ".venv-bench",
+    ("constraints.txt", "bench-constraints.txt"),
+    # There is no pin for Windows; what needs it says so there.
+    ("roboticstoolbox-python", "pin; sys_platform != 'win32'", "threadpoolctl"),
+)
 # One core and one thread each, and the processor's own kernels: variables that choose slower ones are dropped.
 _ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 _SLOWER_KERNELS = ("OPENBLAS_CORETYPE", "OPENBLAS_L2_SIZE")
+# These measure what a person sees: on a screen, and with the whole machine.
+_WINDOW_BENCHMARKS = ("bench_window",)
 _OFF_SCREEN = {"QT_QPA_PLATFORM": "offscreen"}
 
 
@@ -24,7 +34,7 @@ def run(arguments: list[str]) -> int:
     """Start rvsim; without a screen and without a wish, do its main job as a picture and a table."""
     dev_system.provide((*dev_system.QT, *dev_system.window_needs(os.environ)))
     python = str(dev_environment.ensure())
-    if dev_system.has_screen(os.environ):
+    if dev_screen.has_screen(os.environ):
         return _become([python, "-m", "rvsim", *arguments])
     if arguments:
         os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -54,41 +64,67 @@ def _track_the_line(python: str) -> int:
     return code
 
 
-def bench(names: list[str]) -> int:
-    """Measure each benchmark in an environment of their own, on one core."""
-    dev_system.provide(dev_system.QT)
+def bench(arguments: list[str]) -> int:
+    """Measure each benchmark in an environment of their own: arithmetic on one core, windows on a virtual screen."""
+    names, options = _split(arguments)
     scripts = _scripts("benchmarks", "bench", names)
+    windows = [script for script in scripts if script.stem in _WINDOW_BENCHMARKS]
+    dev_system.provide((*dev_system.QT, *(dev_system.VIRTUAL_SCREEN if windows else ())))
     python = str(dev_environment.ensure(BENCH))
-    environment = dev_environment.child_environment(**_ONE_THREAD)
-    for name in _SLOWER_KERNELS:
-        environment.pop(name, None)
-    if sys.platform == "linux":
-        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
     harness = ROOT / "tests" / "benchmarks" / "harness.py"
-    return _run_each(python, [harness, *scripts], environment)
+    with _one_core():
+        arithmetic = [script for script in scripts if script not in windows]
+        code = _run_each(python, [harness, *arithmetic], options, _bench_environment())
+    if windows:
+        with dev_screen.virtual_screen() if sys.platform == "linux" else nullcontext({}) as variables:
+            code = max(code, _run_each(python, windows, options, {**_bench_environment(), **variables}))
+    return code
 
 
-def soak(names: list[str]) -> int:
+def _bench_environment() -> dict[str, str]:
+    environment = dev_environment.child_environment(**_ONE_THREAD)
+    return {name: value for name, value in environment.items() if name not in _SLOWER_KERNELS}
+
+
+@contextmanager
+def _one_core() -> Iterator[None]:
+    """Keep this process and those it starts on one core, where the system can."""
+    if sys.platform != "linux":
+        yield
+        return
+    cores = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {max(cores)})
+    yield
+    os.sched_setaffinity(0, cores)
+
+
+def soak(arguments: list[str]) -> int:
     """Run the long random tests one after the other."""
-    dev_system.provide(dev_system.QT)
+    names, options = _split(arguments)
     scripts = _scripts("soak", "soak", names)
+    dev_system.provide(dev_system.QT)
     python = str(dev_environment.ensure(extras=("test",)))
-    return _run_each(python, scripts, dev_environment.child_environment(**_OFF_SCREEN))
+    return _run_each(python, scripts, options, dev_environment.child_environment(**_OFF_SCREEN))
+
+
+def _split(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """The names at the beginning, and the options for the scripts from the first one on."""
+    names = list(takewhile(lambda argument: not argument.startswith("-"), arguments))
+    return names, list(arguments[len(names) :])
 
 
 def _scripts(folder: str, prefix: str, names: Sequence[str]) -> list[Path]:
     """The scripts tests/FOLDER/PREFIX_NAME.py: all of them, or those that were named."""
-    there = {
-        path.stem.removeprefix(f"{prefix}_"): path for path in sorted((ROOT / "tests" / folder).glob(f"{prefix}_*.py"))
-    }
+    found = sorted((ROOT / "tests" / folder).glob(f"{prefix}_*.py"))
+    there = {path.stem.removeprefix(f"{prefix}_"): path for path in found}
     unknown = [name for name in names if name not in there]
     if unknown or not there:
-        raise SetupError(f"There is no {prefix} named {', '.join(unknown)}. There are: {', '.join(there) or 'none'}.")
-    return [there[name] for name in names] if names else list(there.values())
+        raise SetupError(f"There is no {prefix} {' or '.join(unknown)}. There are: {', '.join(there) or 'none'}.")
+    return [there[name] for name in names] if names else found
 
 
-def _run_each(python: str, scripts: list[Path], environment: dict[str, str]) -> int:
-    codes = [subprocess.call([python, str(script)], env=environment, cwd=ROOT) for script in scripts]
+def _run_each(python: str, scripts: list[Path], options: list[str], environment: dict[str, str]) -> int:
+    codes = [subprocess.call([python, str(script), *options], env=environment, cwd=ROOT) for script in scripts]
     return max((abs(code) for code in codes), default=0)
 
 

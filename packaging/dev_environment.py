@@ -25,14 +25,14 @@ _FOREIGN = ("PYTHONPATH", "PYTHONHOME", "PIP_TARGET", "PIP_PREFIX", "PIP_REQUIRE
 
 
 class Kind(NamedTuple):
-    """One kind of environment: its folder, the file that pins its versions, and what is in it besides rvsim."""
+    """One kind of environment: its folder, the files that pin its versions, and what is in it besides rvsim."""
 
     folder: str
-    constraints: str
+    constraints: tuple[str, ...]
     peers: tuple[str, ...] = ()
 
 
-APP = Kind(".venv", "constraints.txt")
+APP = Kind(".venv", ("constraints.txt",))
 
 
 class Stamp(NamedTuple):
@@ -119,13 +119,13 @@ def ensure(kind: Kind = APP, extras: tuple[str, ...] = ()) -> Path:
 
 def _wanted(kind: Kind, extras: tuple[str, ...]) -> Stamp:
     pyproject = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    constraints = _constraints(kind).read_text(encoding="utf-8")
+    constraints = "".join(path.read_text(encoding="utf-8") for path in _constraints(kind))
     base = f"{sys.version} {platform.machine()} {sys.base_prefix}"
     return Stamp(str(ROOT / kind.folder), base, fingerprint(pyproject, constraints, kind.peers), extras)
 
 
-def _constraints(kind: Kind) -> Path:
-    return ROOT / "packaging" / kind.constraints
+def _constraints(kind: Kind) -> list[Path]:
+    return [ROOT / "packaging" / name for name in kind.constraints]
 
 
 def _make(folder: Path) -> None:
@@ -144,7 +144,8 @@ def _make(folder: Path) -> None:
 
 def _install(python: Path, kind: Kind, extras: tuple[str, ...]) -> None:
     rvsim = str(ROOT) + (f"[{','.join(extras)}]" if extras else "")
-    constraints = str(_constraints(kind))
+    # As addresses, because pip splits the variable at spaces, which a folder's name may have.
+    constraints = " ".join(path.as_uri() for path in _constraints(kind))
     # Old and new pip hand the pins to the build's own environment by different variables.
     pins = {"PIP_CONSTRAINT": constraints, "PIP_BUILD_CONSTRAINT": constraints, "PIP_USER": "0"}
     command = [str(python), "-m", "pip", "install", "--disable-pip-version-check", "--editable", rvsim, *kind.peers]

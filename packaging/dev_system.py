@@ -81,11 +81,6 @@ def window_needs(environment: Mapping[str, str]) -> tuple[Need, ...]:
     return WAYLAND if environment.get("WAYLAND_DISPLAY") else ()
 
 
-def has_screen(environment: Mapping[str, str], platform: str = sys.platform) -> bool:
-    """Whether a window can be seen: only Linux has sessions without a screen that can be told apart."""
-    return platform != "linux" or bool(environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY"))
-
-
 def release(text: str) -> dict[str, str]:
     """The fields of an os-release file."""
     pairs = (line.partition("=") for line in text.splitlines() if "=" in line)

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import os
-import select
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import dev_environment
+import dev_screen
 import dev_system
 from dev_environment import ROOT
-from dev_system import SetupError
 
 _NO_TESTS = 5  # pytest's exit status when it found none
 _LINTERS = (
@@ -86,33 +84,5 @@ def _opengl(python: str, arguments: list[str]) -> Outcome:
     command = [python, "-m", "pytest", "-m", "opengl", "-W", "error::RuntimeWarning"]
     if not arguments:
         command += ["--cov", "--cov-append", "--cov-report=term"]
-    variables = {"QT_QPA_PLATFORM": "xcb", "LIBGL_ALWAYS_SOFTWARE": "1", "WAYLAND_DISPLAY": ""}
-    with _virtual_screen() as display:
-        return _leg("tests with OpenGL", [*command, *arguments], DISPLAY=display, **variables)
-
-
-@contextmanager
-def _virtual_screen() -> Iterator[str]:
-    """A virtual X server that chooses a free display itself; yields its name, such as ":99"."""
-    ours, theirs = os.pipe()
-    command = ["Xvfb", "-displayfd", str(theirs), "-screen", "0", "1280x900x24", "-nolisten", "tcp"]
-    server = subprocess.Popen(command, pass_fds=(theirs,), stderr=subprocess.DEVNULL)
-    os.close(theirs)
-    try:
-        yield f":{_display_number(ours)}"
-    finally:
-        os.close(ours)
-        server.terminate()
-        server.wait()
-
-
-def _display_number(pipe: int, patience: float = 30.0) -> str:
-    """What the server writes once it is ready; a server that ends or says nothing in time is an error."""
-    text = b""
-    while not text.endswith(b"\n"):
-        ready, _, _ = select.select([pipe], [], [], patience)
-        piece = os.read(pipe, 16) if ready else b""
-        if not piece:
-            raise SetupError("The virtual screen for the OpenGL tests did not start. Try:  Xvfb -displayfd 1")
-        text += piece
-    return text.decode().strip()
+    with dev_screen.virtual_screen() as variables:
+        return _leg("tests with OpenGL", [*command, *arguments], **variables)

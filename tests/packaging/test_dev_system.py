@@ -73,7 +73,8 @@ def test_without_apt_the_libraries_are_named(monkeypatch: pytest.MonkeyPatch) ->
     ],
 )
 def test_a_window_needs_the_libraries_of_its_screen(environment: dict[str, str], packages: str | None) -> None:
-    from dev_system import has_screen, window_needs
+    from dev_screen import has_screen
+    from dev_system import window_needs
 
     needs = [need.package for need in window_needs(environment)]
     assert needs[:1] == ([packages] if packages else [])
