@@ -10,10 +10,12 @@ right through every later row, Rx(π) Rz(θ) Tz(d) = Rz(−θ) Tz(−d) Rx(π), 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from rvsim.kinematics.dh import dh_transform
 from rvsim.robot import Robot
 from rvsim.spatial import inverse_transform, rot_x, rot_z, transform
 from rvsim.spatial.arrays import FloatArray
@@ -63,6 +65,19 @@ class Chain:
     def square(self, i: int) -> bool:
         """Whether axes i and i + 1 (from 0) are at a right angle."""
         return abs(float(self.alpha[i]) - 0.5 * math.pi) <= TOLERANCE
+
+    def sine_sign(self, i: int) -> float:
+        """±1: the sine of joint i's DH angle (from 0) over that of the normal form's angle."""
+        turn = self.offset[i] - self.sign[i] * self.robot.dh[i, 0]
+        return float(self.sign[i]) * math.copysign(1.0, math.cos(turn))
+
+    def place(self, values: Sequence[float]) -> FloatArray:
+        """The tool's origin (3,) in frame 0 for variables (n,) of the normal form, by the plain product of the rows."""
+        T = np.eye(4)
+        for i, (value, joint) in enumerate(zip(values, self.robot.joints, strict=True)):
+            theta, d = (value, self.d[i]) if joint.revolute else (self.theta[i], value)
+            T = T @ dh_transform(theta, d, self.a[i], self.alpha[i], "standard")
+        return np.asarray((T @ self.T_n_tool)[:3, 3])
 
     def inner(self, q: FloatArray) -> FloatArray:
         """The variables of the normal form (..., n) of joint variables q (..., n)."""

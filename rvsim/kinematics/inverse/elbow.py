@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,6 +38,14 @@ def solve_elbow(u: FloatArray, w: FloatArray, a2: float, a3: float) -> Elbow:
     bend = 2.0 * np.arctan2(np.sqrt(one_minus), np.sqrt(one_plus))
     lean = np.arctan2(a3 * np.sqrt(one_minus * one_plus), (square + (a2 * a2 - a3 * a3)) * (0.5 / a2))
     return Elbow(np.arctan2(w, u), lean, bend, missing)
+
+
+def elbow_up(a2: float, a3: float) -> float:
+    """The sign of θ3 that lifts the elbow above the line from the shoulder to a wrist on the positive side (u > 0).
+
+    A bend to the negative side does, unless one link has a negative a; on the other side the signs change places.
+    """
+    return -math.copysign(1.0, a2 * a3)
 
 
 def erase(branches: FloatArray, missing: Mask) -> None:

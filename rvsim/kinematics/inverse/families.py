@@ -8,9 +8,24 @@ from rvsim.errors import NoClosedFormError
 from rvsim.kinematics.inverse.chain import canonical_chain
 from rvsim.kinematics.inverse.closed_form import ClosedForm
 from rvsim.kinematics.inverse.five_axis import FiveAxis
+from rvsim.kinematics.inverse.rrrp import RollAndExtend
+from rvsim.kinematics.inverse.spherical_wrist import SphericalWrist
+from rvsim.kinematics.inverse.textbook import Articulated, Cartesian, Cylindrical, Planar, Scara, Spherical
+from rvsim.kinematics.inverse.ur import ParallelAxes
 from rvsim.robot import Robot
 
-FAMILIES: tuple[type[ClosedForm], ...] = (FiveAxis,)
+FAMILIES: tuple[type[ClosedForm], ...] = (
+    FiveAxis,
+    ParallelAxes,
+    SphericalWrist,
+    RollAndExtend,
+    Planar,
+    Articulated,
+    Spherical,
+    Scara,
+    Cylindrical,
+    Cartesian,
+)
 
 
 @lru_cache(maxsize=64)

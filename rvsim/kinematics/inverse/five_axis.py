@@ -14,7 +14,8 @@ import numpy as np
 
 from rvsim.kinematics.inverse.chain import Chain
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, is_zero, long_enough, parallel, right_angle
-from rvsim.kinematics.inverse.elbow import Elbow, Mask, erase, solve_elbow
+from rvsim.kinematics.inverse.elbow import Elbow, Mask, elbow_up, erase, solve_elbow
+from rvsim.kinematics.inverse.words import ELBOW, combine, side_names
 from rvsim.spatial.arrays import FloatArray
 
 FEASIBLE = 1e-9  # [rad] how far the tool axis may lean out of the plane; the same of the arm's size for the tip
@@ -35,7 +36,6 @@ class FiveAxis(ClosedForm):
 
     title = "5R arm with a waist, three parallel axes and a roll"
     joints = "RRRRR"
-    labels = ("front, elbow up", "front, elbow down", "back, elbow up", "back, elbow down")
 
     @classmethod
     def conditions(cls, chain: Chain) -> Iterable[Condition]:
@@ -52,8 +52,8 @@ class FiveAxis(ClosedForm):
         super().__init__(chain)
         self.a1, self.a2, self.a3, self.a4 = (float(a) for a in chain.a[:4])
         self.d1, self.d5 = float(chain.d[0]), float(chain.d[4])
-        # Seen from the front, a bend to the negative side lifts the elbow; a link with a negative a turns that round.
-        self.up = -math.copysign(1.0, self.a2 * self.a3)
+        self.labels = combine(side_names(chain), ELBOW)
+        self.up = elbow_up(self.a2, self.a3)
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
         """The plane gives θ1, pitch and roll; the wrist in it gives the elbow."""

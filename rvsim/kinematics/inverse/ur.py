@@ -1,0 +1,113 @@
+"""6R arms with three parallel axes and an offset wrist: UR5e and its relatives. Up to eight branches.
+
+The last axis but one carries the offset d4 beside the arm's plane, which gives joint 1; the plane's normal, seen from
+the flange, gives the wrist; what is left is two links in a plane. Hawkins (2013), with the offsets kept general.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from rvsim.kinematics.inverse.chain import Chain, wrap
+from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, intersecting, long_enough, parallel, right_angle
+from rvsim.kinematics.inverse.elbow import Mask, elbow_up, erase, solve_elbow
+from rvsim.kinematics.inverse.spherical_wrist import plane_entries
+from rvsim.kinematics.inverse.waist import Side, solve_waist
+from rvsim.kinematics.inverse.words import ELBOW, combine, side_names, wrist_names
+from rvsim.spatial.arrays import FloatArray
+
+Flange = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
+_SINGULAR = 1e-10  # sin θ5: below it axis 6 is parallel to axes 2, 3, 4, and θ6 is free
+
+
+class ParallelAxes(ClosedForm):
+    """Waist, three parallel axes, two wrist axes at right angles."""
+
+    title = "6R arm with three parallel axes"
+    joints = "RRRRRR"
+
+    @classmethod
+    def conditions(cls, chain: Chain) -> Iterable[Condition]:
+        """Axis 1 square to axes 2, 3, 4, which are parallel; axis 5 square to them, axis 6 to axis 5 and meeting it."""
+        yield right_angle(chain, 0)
+        yield parallel(chain, 1)
+        yield parallel(chain, 2)
+        yield from (long_enough(chain, i) for i in (1, 2))
+        yield from (right_angle(chain, i) for i in (3, 4))
+        yield intersecting(chain, 4)
+
+    def __init__(self, chain: Chain) -> None:
+        super().__init__(chain)
+        self.a1, self.a2, self.a3, self.a4 = (float(a) for a in chain.a[:4])
+        self.d1, self.d5, self.d6 = (float(chain.d[i]) for i in (0, 4, 5))
+        self.offset = float(chain.d[1:4].sum())
+        self.up = elbow_up(self.a2, self.a3)
+        self.labels = combine(side_names(chain, ("left shoulder", "right shoulder")), wrist_names(chain, 4), ELBOW)
+
+    def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
+        """Shoulder, then wrist, then elbow."""
+        x, y, z = S[:, 3] - self.d6 * S[:, 2]
+        waist = solve_waist(x, y, self.offset, self.chain.size, float(free[0]))
+        q = np.empty((2, 2, 2, 6, x.size))
+        for k, side in enumerate(waist.sides):
+            q[k, :, :, 0] = side.theta1
+            self._solve_side(S, side, z - self.d1, q[k], waist.missing, (-1.0) ** k * self.up, float(free[5]))
+        return q.reshape(8, 6, -1)
+
+    def _solve_side(
+        self, S: FloatArray, side: Side, w: FloatArray, q: FloatArray, missing: Mask, up: float, free6: float
+    ) -> None:
+        """θ2 … θ6 into q (2, 2, 6, m). Axis 4 (z4) lies in the plane: it is s6 x + c6 y of the flange's x and y."""
+        (xr, yr, _), (xz, yz, _), (xn, yn, an) = plane_entries(S, side)
+        u = side.out - self.a1
+        sine = np.sqrt(xn * xn + yn * yn)
+        c6, s6 = xn / sine, -yn / sine
+        singular = sine < _SINGULAR
+        if singular.any():
+            theta6 = self._free_wrist((xr, yr, xz, yz), u, w, singular, free6)
+            c6[singular], s6[singular] = np.cos(theta6), np.sin(theta6)
+        r4, z4 = s6 * xr + c6 * yr, s6 * xz + c6 * yz
+        q[0, :, 4], q[0, :, 5] = np.arctan2(sine, -an), np.arctan2(s6, c6)
+        np.negative(q[0, :, 4], out=q[1, :, 4])
+        np.add(q[0, :, 5], math.pi, out=q[1, :, 5])
+        bend = np.arctan2(r4, -z4)
+        along, across = self.d5 * r4 - self.a4 * z4, self.d5 * z4 + self.a4 * r4
+        absent = self._fold(u - along, w - across, bend, q[0], up)
+        erase(q[0], absent | missing)
+        absent = self._fold(u + along, w + across, bend + math.pi, q[1], up)
+        erase(q[1], absent | missing)
+
+    def _fold(self, u: FloatArray, w: FloatArray, bend: FloatArray, q: FloatArray, up: float) -> Mask:
+        """θ2, θ3, θ4 into q (2, 6, m), for the elbow's end at (u, w) and bend = θ2 + θ3 + θ4."""
+        elbow = solve_elbow(u, w, self.a2, self.a3)
+        for branch, sign in zip(q, (up, -up), strict=True):
+            np.subtract(elbow.direction, sign * elbow.lean, out=branch[1])
+            np.multiply(elbow.bend, sign, out=branch[2])
+            np.subtract(bend, branch[1], out=branch[3])
+            branch[3] -= branch[2]
+        return elbow.missing
+
+    def _free_wrist(self, flange: Flange, u: FloatArray, w: FloatArray, rows: Mask, free6: float) -> FloatArray:
+        """θ6 of the rows where it is free: `free6`, or if the elbow then is out of reach, the nearest that is not."""
+        xr, yr, xz, yz = (entry[rows] for entry in flange)
+        c, s = math.cos(free6), math.sin(free6)
+        r4, z4 = s * xr + c * yr, s * xz + c * yz
+        link = np.arctan2(self.d5 * z4 + self.a4 * r4, self.d5 * r4 - self.a4 * z4)
+        opening = wrap(link - np.arctan2(w[rows], u[rows]))
+        least, most = self._openings(np.hypot(u[rows], w[rows]))
+        allowed = np.copysign(np.clip(np.abs(opening), least, most), opening)
+        # As θ6 grows, axis 4 turns from the flange's y to its x, which may be either way round in the plane.
+        return np.asarray(free6 + np.where(xr * yz - xz * yr > 0.0, opening - allowed, allowed - opening))
+
+    def _openings(self, away: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The least and the greatest angle at the shoulder-to-wrist line with which d5, a4 leave the elbow in reach."""
+        length = math.hypot(self.d5, self.a4)
+        nearest, farthest = abs(abs(self.a2) - abs(self.a3)), abs(self.a2) + abs(self.a3)
+        scale = 1.0 / np.maximum(2.0 * away * length, 1e-300)
+        squares = away * away + length * length
+        cosines = ((squares - nearest**2) * scale, (squares - farthest**2) * scale)
+        least, most = (np.arccos(np.clip(cosine, -1.0, 1.0)) for cosine in cosines)
+        return least, most

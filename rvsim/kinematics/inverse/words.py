@@ -1,0 +1,28 @@
+"""The branches' names, in the field's words."""
+
+from __future__ import annotations
+
+from itertools import product
+
+from rvsim.kinematics.inverse.chain import Chain
+
+ELBOW = ("elbow up", "elbow down")
+WRIST = ("wrist no-flip", "wrist flip")
+
+
+def combine(*choices: tuple[str, ...]) -> tuple[str, ...]:
+    """Every combination, the last choice changing fastest."""
+    return tuple(", ".join(words) for words in product(*choices))
+
+
+def side_names(chain: Chain, names: tuple[str, str] = ("front", "back")) -> tuple[str, ...]:
+    """The two sides of joint 1: facing the target with the first axis x1 of the DH table, or turned away from it."""
+    return names if chain.sine_sign(0) > 0.0 else names[::-1]
+
+
+def wrist_names(chain: Chain, i: int) -> tuple[str, ...]:
+    """The two sides of wrist joint i (from 0), for a positive and a negative sine in the normal form.
+
+    The wrist is not flipped while the sine of its DH angle is positive.
+    """
+    return WRIST if chain.sine_sign(i) > 0.0 else WRIST[::-1]
