@@ -1,0 +1,344 @@
+"""The command line: `rvsim` opens the window, a subcommand does one job without it.
+
+Exit status: 0 done, 1 the outcome is a failure (no point reached, no solution), 2 the input cannot be used. What went
+wrong is one sentence on the error stream, never a traceback. Results: sentences and tables, or JSON with --json.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+
+from rvsim import __version__
+from rvsim.errors import RvsimError
+from rvsim.expressions import evaluate
+from rvsim.files import load_robot, robot_names
+from rvsim.kinematics import forward_kinematics, jacobian, link_transforms
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.spatial import rpy_from_rotation
+from rvsim.units import degrees_from_radians, metres_from_millimetres, millimetres_from_metres, radians_from_degrees
+
+if TYPE_CHECKING:
+    from rvsim.motion import Tracking
+
+DONE, FAILED, BAD_INPUT = 0, 1, 2
+
+# A value may begin with a minus sign; written with "=" it is not taken for an option.
+_VECTOR_OPTIONS = ("--deg", "--near-deg", "--xyz-mm", "--rpy-deg", "--from-mm", "--to-mm", "--height-mm")
+_SEPARATOR = re.compile(r"[,;](?![^()]*\))")
+
+
+class InputError(RvsimError):
+    """What was typed cannot be used."""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says in one sentence what is wrong, and how to get help."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message[:1].upper()}{message[1:]}. Type {self.prog} --help.")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Do what the arguments say; the exit status."""
+    _speak_any_encoding()
+    try:
+        options = _parser().parse_args(_joined(sys.argv[1:] if arguments is None else arguments))
+        job: Callable[[argparse.Namespace], int] = options.job
+        return job(options)
+    except BrokenPipeError:  # the reader has seen enough, as in `rvsim robots | head -1`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except RvsimError as problem:
+        print(f"rvsim: {problem}", file=sys.stderr)
+    except OSError as problem:
+        print(
+            f"rvsim: {problem.filename}: {problem.strerror}." if problem.filename else f"rvsim: {problem}",
+            file=sys.stderr,
+        )
+    return BAD_INPUT
+
+
+# --- arguments ---------------------------------------------------------------------------------------------------
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="rvsim", description="See, move, compute and understand a robot arm.", allow_abbrev=False)
+    parser.add_argument("--version", action="version", version=f"rvsim {__version__}")
+    _add_window_options(parser)
+    parser.set_defaults(job=_window)
+    commands = parser.add_subparsers(title="without a window", metavar="COMMAND")
+    for name, job, summary, add_options in _COMMANDS:
+        command = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
+        add_options(command)
+        command.add_argument("--json", action="store_true", help="print JSON instead of sentences")
+        command.set_defaults(job=job)
+    return parser
+
+
+def _add_window_options(parser: argparse.ArgumentParser) -> None:
+    window = parser.add_argument_group("the window")
+    window.add_argument("--robot", metavar="ARM", help="the arm to begin with")
+    window.add_argument("--renderer", choices=("auto", "gl", "painter"), help="who draws the scene")
+    window.add_argument("--theme", choices=("light", "dark"))
+    window.add_argument("--screenshot", metavar="FILE.png", help="open, draw, save, leave")
+    window.add_argument("--size", type=_size, metavar="1366x768", help="of the window")
+    window.add_argument("--state", default="home", metavar="home|line|PATH", help="what the screenshot shows")
+
+
+def _add_arm(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("arm", metavar="ARM", help="a name that `rvsim robots` lists, or a robot file")
+
+
+def _add_arm_and_joints(parser: argparse.ArgumentParser) -> None:
+    _add_arm(parser)
+    parser.add_argument("--deg", required=True, metavar='"30,40,…"', help="joints: degrees, mm for a prismatic one")
+
+
+def _add_track_options(parser: argparse.ArgumentParser) -> None:
+    _add_arm(parser)
+    parser.add_argument("--path", default="line", metavar="NAME|FILE.csv", help="line, letter-board, ellipse, …")
+    parser.add_argument("--from-mm", metavar='"x,y,z"', help="where the line starts")
+    parser.add_argument("--to-mm", metavar='"x,y,z"', help="where the line ends")
+    parser.add_argument("--samples", type=_samples, help="the number of points")
+    parser.add_argument("--height-mm", metavar="z", help="of the letter divided by 40")
+    parser.add_argument("--orientation", choices=("down", "free", "keep", "source"), help="of the tool")
+    parser.add_argument("--near-deg", metavar='"0,0,…"', help="the pose to start from (home)")
+    parser.add_argument("--ignore-limits", action="store_true", help="leave the joint limits out of account")
+    parser.add_argument("--csv", metavar="FILE", help="write the joints, a row a point")
+    parser.add_argument("--png", metavar="FILE", help="draw the arm on its path")
+
+
+def _no_options(_parser: argparse.ArgumentParser) -> None:
+    """For a command that takes none."""
+
+
+def _joined(arguments: Sequence[str]) -> list[str]:
+    """`--deg -30,40` as `--deg=-30,40`."""
+    joined: list[str] = []
+    for argument in arguments:
+        if joined and joined[-1] in _VECTOR_OPTIONS:
+            joined[-1] += f"={argument}"
+        else:
+            joined.append(argument)
+    return joined
+
+
+def _size(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d{2,5})[x×](\d{2,5})", text.strip())
+    if match is None:
+        raise argparse.ArgumentTypeError(f"“{text}” is no size; write it like 1366x768")
+    return int(match[1]), int(match[2])
+
+
+def _samples(text: str) -> int:
+    if not text.isdecimal() or not 2 <= int(text) <= 1_000_000:
+        raise argparse.ArgumentTypeError(f"“{text}” is no number of points; it must be 2 or more, at most 1000000")
+    return int(text)
+
+
+# --- values ------------------------------------------------------------------------------------------------------
+
+
+def _numbers(option: str, text: str, names: Sequence[str]) -> FloatArray:
+    """As many numbers or expressions, separated by commas (or semicolons), as there are names."""
+    parts = _SEPARATOR.split(text) if ";" not in text else text.split(";")
+    if len(parts) != len(names):
+        raise InputError(
+            f"{option} needs {len(names)} values ({', '.join(names)}), separated by commas; found {len(parts)}."
+        )
+    return np.array([evaluate(part) for part in parts])
+
+
+def _joints(robot: Robot, option: str, text: str) -> FloatArray:
+    """q (n,) of typed degrees and millimetres."""
+    values = _numbers(option, text, robot.joint_names)
+    return np.where(robot.is_revolute, radians_from_degrees(values), metres_from_millimetres(values))
+
+
+def _place(option: str, text: str | None) -> FloatArray | None:
+    return None if text is None else metres_from_millimetres(_numbers(option, text, ("x", "y", "z")))
+
+
+# --- printing ----------------------------------------------------------------------------------------------------
+
+
+def _speak_any_encoding() -> None:
+    """A terminal that lacks a sign shows another one; it is no reason to stop."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(AttributeError, ValueError):
+            stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+
+
+def _print(options: argparse.Namespace, record: Any, text: str) -> None:
+    from rvsim.lab.tables import without_nan
+
+    print(json.dumps(without_nan(record), indent=2, allow_nan=False, ensure_ascii=False) if options.json else text)
+
+
+def _row(values: FloatArray, decimals: int = 1) -> str:
+    return ", ".join(f"{value:.{decimals}f}" for value in np.round(values, decimals) + 0.0)
+
+
+# --- jobs --------------------------------------------------------------------------------------------------------
+
+
+def _window(options: argparse.Namespace) -> int:
+    from rvsim.gui.app import main as open_window
+
+    if options.robot is not None:
+        load_robot(options.robot)  # an unknown arm is said here, before anything opens
+    return open_window(options)
+
+
+def _robots(options: argparse.Namespace) -> int:
+    robots = [load_robot(name) for name in robot_names()]
+    lines = [f"{robot.name:12} {robot.dof} joints  {robot.title} ({robot.family})" for robot in robots]
+    _print(options, [_robot_record(robot) for robot in robots], "\n".join(lines))
+    return DONE
+
+
+def _robot_record(robot: Robot) -> dict[str, Any]:
+    from rvsim.lab.tables import shown_joints
+
+    return {
+        "name": robot.name,
+        "title": robot.title,
+        "dof": robot.dof,
+        "convention": robot.convention,
+        "joint_names": robot.joint_names,
+        "joint_types": robot.joint_types,
+        "limits": shown_joints(robot, robot.limits.T).T,
+        "home": shown_joints(robot, robot.home),
+        "source": robot.source,
+    }
+
+
+def _fk(options: argparse.Namespace) -> int:
+    robot = load_robot(options.arm)
+    q = _joints(robot, "--deg", options.deg)
+    T = forward_kinematics(robot, q)
+    xyz_mm, rpy_deg = millimetres_from_metres(T[:3, 3]), degrees_from_radians(rpy_from_rotation(T[:3, :3]))
+    outside = _outside(robot, q)
+    record = {"robot": robot.name, "xyz_mm": xyz_mm, "rpy_deg": rpy_deg, "T_base_tool": T, "outside_limits": outside}
+    text = f"({_row(xyz_mm)}) mm\nroll, pitch, yaw: ({_row(rpy_deg)})°"
+    if outside:
+        text += f"\nOutside its limits: {', '.join(outside)}."
+    _print(options, record, text)
+    return DONE
+
+
+def _outside(robot: Robot, q: FloatArray) -> list[str]:
+    from rvsim.experiment import limit_violations
+
+    return [robot.joint_names[violation.joint] for violation in limit_violations(robot, q)]
+
+
+def _jacobian(options: argparse.Namespace) -> int:
+    robot = load_robot(options.arm)
+    J = jacobian(robot, _joints(robot, "--deg", options.deg))
+    sigma = np.linalg.svd(J, compute_uv=False)
+    rows = (
+        f"{name:3} {'  '.join(f'{value:9.5f}' for value in row + 0.0)}" for name, row in zip(_TWIST, J, strict=True)
+    )
+    header = "linear rows in m/rad (m/m), angular rows in rad/rad; base axes, at the tool origin"
+    text = "\n".join([header, *rows, f"smallest singular value {sigma[-1]:.3e}"])
+    _print(options, {"robot": robot.name, "J": J, "sigma_min": sigma[-1]}, text)
+    return DONE
+
+
+_TWIST = ("vx", "vy", "vz", "wx", "wy", "wz")
+
+
+def _track(options: argparse.Namespace) -> int:
+    from rvsim.lab import named_path
+    from rvsim.lab.tables import tracking_csv, tracking_record
+    from rvsim.motion import track
+
+    robot = load_robot(options.arm)
+    near = robot.home if options.near_deg is None else _joints(robot, "--near-deg", options.near_deg)
+    height = {} if options.height_mm is None else {"height": metres_from_millimetres(evaluate(options.height_mm))}
+    start, end = _place("--from-mm", options.from_mm), _place("--to-mm", options.to_mm)
+    path = named_path(
+        options.path,
+        robot,
+        samples=options.samples,
+        orientation=options.orientation,
+        start=start,
+        end=end,
+        q=near,
+        **height,
+    )
+    tracking = track(robot, path, near=near, ignore_limits=options.ignore_limits)
+    if options.csv:
+        _write(options.csv, tracking_csv(tracking))
+    if options.png:
+        _draw(tracking, options.png)
+    _print(options, tracking_record(tracking), _tracking_text(tracking, options))
+    return DONE if tracking.reached_count else FAILED
+
+
+def _tracking_text(tracking: Tracking, options: argparse.Namespace) -> str:
+    from rvsim.lab.sentences import advice_sentence, deviation_sentence, tracking_sentence
+
+    sentences = (tracking_sentence(tracking), deviation_sentence(tracking), advice_sentence(tracking))
+    written = [f"Written: {file}" for file in (options.csv, options.png) if file]
+    return "\n".join(sentence for sentence in (*sentences, *written) if sentence)
+
+
+def _write(file: str, text: str) -> None:
+    from rvsim.files.atomic import write_atomically
+
+    write_atomically(Path(file), text.encode())
+
+
+def _draw(tracking: Tracking, file: str) -> None:
+    """The arm on its path, at the last but one quarter of what it reached, painted without a screen."""
+    os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    from PySide6.QtGui import QGuiApplication
+
+    from rvsim.gui.picture import save_picture
+    from rvsim.gui.theme import load_fonts
+    from rvsim.scene import Camera
+    from rvsim.scene.build import compose
+    from rvsim.scene.palette import LIGHT
+    from rvsim.scene.paths import path_items
+
+    application = QGuiApplication.instance() or QGuiApplication(["rvsim"])
+    load_fonts()
+    reached = np.flatnonzero(tracking.reached)
+    q = tracking.q[reached[3 * len(reached) // 4]] if len(reached) else tracking.robot.home
+    path = path_items(tracking.path.points, tracking.reached, tracking.actual[reached], LIGHT)
+    scene = compose(tracking.robot, q, LIGHT, extras=path)
+    camera = Camera(np.zeros(3), 1.0).fitted(_seen(tracking, q), *_PICTURE)
+    save_picture(scene, camera, file, *_PICTURE)
+    del application
+
+
+def _seen(tracking: Tracking, q: FloatArray) -> FloatArray:
+    """(2, 3) the box around base, arm and path, with some air [m]."""
+    arm = link_transforms(tracking.robot, q)[:, :3, 3]
+    points = np.concatenate([np.zeros((1, 3)), arm, tracking.path.points])
+    air = 0.15 * float(np.ptp(points, axis=0).max())
+    return np.array([points.min(axis=0) - (air, air, 0.0), points.max(axis=0) + air])
+
+
+_PICTURE = (1280, 960)
+_COMMANDS: tuple[
+    tuple[str, Callable[[argparse.Namespace], int], str, Callable[[argparse.ArgumentParser], None]], ...
+] = (
+    ("robots", _robots, "list the arms", _no_options),
+    ("fk", _fk, "where the tool is", _add_arm_and_joints),
+    ("jacobian", _jacobian, "how the tool moves with the joints", _add_arm_and_joints),
+    ("track", _track, "follow a path", _add_track_options),
+)
