@@ -152,6 +152,23 @@ def test_what_is_not_finite_spoils_its_own_pose_only_and_raises_nothing(bad):
         np.testing.assert_allclose(np.delete(found, 1, axis=0), np.delete(expected, 1, axis=0), atol=0.0)
 
 
+@pytest.mark.parametrize("count", [1, MANY])
+def test_a_joint_that_is_not_a_number_leaves_the_links_before_it_alone(count):
+    robot = load_robot("ur5e")
+    q = random_poses(robot, count)
+    expected = link_transforms(robot, q)
+    q[0, 3] = np.nan
+    found = link_transforms(robot, q)
+    np.testing.assert_array_equal(found[:, :4], expected[:, :4])
+    assert np.isnan(found[0, 4:]).any(axis=(-2, -1)).all()
+
+
+def test_lengths_near_the_largest_float_overflow_instead_of_failing():
+    robot = Robot("huge", "Huge", "standard", tuple(Joint(f"j{i}", "prismatic", 0, 1e308, 0, 0) for i in range(3)))
+    for q in (np.zeros(3), np.zeros((MANY, 3))):
+        assert np.isinf(forward_kinematics(robot, q)[..., 2, 3]).all()
+
+
 def test_a_result_belongs_to_the_caller():
     robot = load_robot("planar")
     first = forward_kinematics(robot, robot.home)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rvsim.kinematics.tape.program import Program, is_constant
+from rvsim.kinematics.tape.program import Angle, Program, is_constant
 from rvsim.spatial.arrays import FloatArray
 
 _BLOCK = 4096
@@ -20,8 +20,7 @@ _UFUNCS = {"+": np.add, "-": np.subtract, "*": np.multiply}
 class BlockPlan(NamedTuple):
     """A program with a place for every name: operands are first the constants, then the rows of a workspace."""
 
-    half_angles: FloatArray  # (angles, n): half the sum of the joint variables
-    half_constants: FloatArray  # (angles, 1)
+    angles: tuple[Angle, ...]
     joints: tuple[int, ...]  # the joint variables that are used as they are, in the rows after sines and cosines
     constants: tuple[FloatArray, ...]
     steps: tuple[tuple[np.ufunc, int, int, int], ...]
@@ -32,7 +31,8 @@ class BlockPlan(NamedTuple):
         """Fill results (m, k), which are zeros, for q (m, n)."""
         block = min(len(q), _BLOCK)
         workspace = np.empty((self.rows, block))
-        with np.errstate(invalid="ignore"):  # the tangent of infinity is nan, and that is the answer
+        # The tangent of infinity is nan, the sum of huge lengths infinite: those are the answers.
+        with np.errstate(invalid="ignore", over="ignore"):
             for start in range(0, len(q), block):
                 part = q[start : start + block]
                 self._play_block(part, workspace[:, : len(part)], results[start : start + block])
@@ -50,10 +50,13 @@ class BlockPlan(NamedTuple):
 
     def _fill_inputs(self, q: FloatArray, rows: FloatArray) -> None:
         """Sines and cosines from t = tan(angle/2): cos = 2/(1 + t²) − 1, sin = t (cos + 1); π itself gives t = 2e16."""
-        count = len(self.half_angles)
+        count = len(self.angles)
         sine, cosine = rows[:count], rows[count : 2 * count]
-        np.matmul(self.half_angles, q.T, out=sine)
-        sine += self.half_constants
+        for row, (_, joints, constant) in zip(sine, self.angles, strict=True):
+            np.add(q[:, joints[0]], constant, out=row)
+            for joint in joints[1:]:
+                row += q[:, joint]
+        sine *= 0.5
         np.tan(sine, out=sine)
         np.multiply(sine, sine, out=cosine)
         cosine += 1.0
@@ -70,14 +73,11 @@ def block_plan(program: Program) -> BlockPlan:
     names += [output.name for output in program.outputs]
     constants = sorted({name for name in names if is_constant(name)})
     joints = sorted({int(name[1:]) for name in names if name[0] == "q"})
-    inputs = [f"{letter}{i}" for letter in "sc" for i in range(len(program.angles))] + [f"q{joint}" for joint in joints]
+    inputs = [f"{letter}{angle.number}" for letter in "sc" for angle in program.angles]
+    inputs += [f"q{joint}" for joint in joints]
     places, total = _places(program, [*constants, *inputs])
-    half_angles = np.zeros((len(program.angles), program.dof))
-    for row, angle in zip(half_angles, program.angles, strict=True):
-        row[list(angle.joints)] = 0.5
     return BlockPlan(
-        half_angles=half_angles,
-        half_constants=np.array([[0.5 * angle.constant] for angle in program.angles]).reshape(-1, 1),
+        angles=program.angles,
         joints=tuple(joints),
         constants=tuple(np.array(float(name)) for name in constants),
         steps=tuple((_UFUNCS[s.operation], places[s.left], places[s.right], places[s.name]) for s in program.steps),
@@ -92,7 +92,9 @@ def _places(program: Program, inputs: list[str]) -> tuple[dict[str, int], int]:
     last_use |= {output.name: len(program.steps) for output in program.outputs}
     places, free, total = {name: i for i, name in enumerate(inputs)}, list[int](), len(inputs)
     for i, step in enumerate(program.steps):
-        free += [places[name] for name in {step.left, step.right} if last_use[name] == i and not is_constant(name)]
+        for name in dict.fromkeys((step.left, step.right)):
+            if last_use[name] == i and not is_constant(name):
+                free.append(places[name])
         if not free:
             free, total = [total], total + 1
         places[step.name] = free.pop()

@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 
 class Angle(NamedTuple):
-    """The sum of some joint variables and a constant [rad]."""
+    """The sum of some joint variables (one or more) and a constant [rad]; its number names its cosine and sine."""
 
+    number: int
     joints: tuple[int, ...]
     constant: float
 
@@ -42,5 +43,5 @@ class Program(NamedTuple):
 
 
 def is_constant(name: str) -> bool:
-    """Whether a name is a number."""
-    return name[0].isdigit()
+    """Whether a name is a number (inf and nan are numbers too: lengths near the largest float overflow)."""
+    return name[0] not in "qcsv"

@@ -21,8 +21,8 @@ def scalar_function(program: Program) -> Play:
 
     Its source is made of the program's own names and numbers only. Raises ValueError for an infinite angle.
     """
-    pack_into = struct.Struct(f"{len(program.outputs)}d").pack_into
-    namespace: dict[str, Any] = {"cos": math.cos, "sin": math.sin, "pack_into": pack_into}
+    namespace: dict[str, Any] = {"cos": math.cos, "sin": math.sin, "inf": math.inf, "nan": math.nan}
+    namespace["pack_into"] = struct.Struct(f"{len(program.outputs)}d").pack_into
     exec("\n    ".join(_source(program)), namespace)
     play: Play = namespace["play"]
     return play
@@ -31,10 +31,10 @@ def scalar_function(program: Program) -> Play:
 def _source(program: Program) -> Iterator[str]:
     yield "def play(q, result):"
     yield "".join(f"q{i}, " for i in range(program.dof)) + "= q"
-    for number, angle in enumerate(program.angles):
+    for angle in program.angles:
         yield f"angle = {_sum(angle)}"
-        yield f"c{number} = cos(angle)"
-        yield f"s{number} = sin(angle)"
+        yield f"c{angle.number} = cos(angle)"
+        yield f"s{angle.number} = sin(angle)"
     expressions: dict[str, str] = {}
     yield from _assignments(program, expressions)
     values = ("-" * output.negative + expressions.get(output.name, output.name) for output in program.outputs)

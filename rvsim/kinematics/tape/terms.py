@@ -19,7 +19,7 @@ _ROUNDING = 1e-15
 
 def snapped(value: float) -> float:
     """`value`, or the whole number that it misses by rounding only."""
-    nearest = float(round(value))
+    nearest = float(round(value)) if math.isfinite(value) else value
     return nearest if abs(value - nearest) <= _ROUNDING else value
 
 
@@ -62,7 +62,7 @@ class Tape:
 
     def __init__(self, dof: int) -> None:
         self._dof = dof
-        self._angles: list[Angle] = []
+        self._angles: dict[tuple[tuple[int, ...], float], Angle] = {}
         self._steps: dict[tuple[str, str, str], str] = {}
 
     def joint(self, index: int) -> Term:
@@ -77,18 +77,16 @@ class Tape:
         """Cosine and sine of the sum of some joint variables and a constant [rad]; quarter turns are exact."""
         quarters = round(constant / (0.5 * math.pi))
         rest = constant - quarters * (0.5 * math.pi)
-        cosine, sine = self._plain_cos_sin(Angle(tuple(joints), 0.0 if abs(rest) <= _ROUNDING else rest))
+        cosine, sine = self._plain_cos_sin(tuple(joints), 0.0 if abs(rest) <= _ROUNDING else rest)
         for _ in range(quarters % 4):
             cosine, sine = -sine, cosine
         return cosine, sine
 
-    def _plain_cos_sin(self, angle: Angle) -> tuple[Number, Number]:
-        if not angle.joints:
-            return snapped(math.cos(angle.constant)), snapped(math.sin(angle.constant))
-        if angle not in self._angles:
-            self._angles.append(angle)
-        number = self._angles.index(angle)
-        return Term(self, f"c{number}"), Term(self, f"s{number}")
+    def _plain_cos_sin(self, joints: tuple[int, ...], constant: float) -> tuple[Number, Number]:
+        if not joints:
+            return snapped(math.cos(constant)), snapped(math.sin(constant))
+        angle = self._angles.setdefault((joints, constant), Angle(len(self._angles), joints, constant))
+        return Term(self, f"c{angle.number}"), Term(self, f"s{angle.number}")
 
     def sum(self, left: Term, right: Term) -> Number:
         """left + right, as one step."""
@@ -112,7 +110,7 @@ class Tape:
         return Player(self.program(outputs), shape)
 
     def program(self, outputs: Sequence[Number]) -> Program:
-        """The frozen program of these outputs; steps that none of them needs are left out."""
+        """The frozen program of these outputs; angles and steps that none of them needs are left out."""
         terms = [self.term(output) for output in outputs]
         needed = {term.name for term in terms}
         steps: list[Step] = []
@@ -120,5 +118,6 @@ class Tape:
             if name in needed:
                 needed |= {left, right}
                 steps.append(Step(name, operation, left, right))
-        written = tuple(Output(term.name, term.negative) for term in terms)
-        return Program(self._dof, tuple(self._angles), tuple(reversed(steps)), written)
+        angles = (a for a in self._angles.values() if not needed.isdisjoint((f"c{a.number}", f"s{a.number}")))
+        written = (Output(term.name, term.negative) for term in terms)
+        return Program(self._dof, tuple(angles), tuple(reversed(steps)), tuple(written))
