@@ -16,11 +16,12 @@ from rvsim.gui.crash import CrashReporter, start_log
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.picture import save_image
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.renderers.choose import choose_renderer, prepare_opengl, probe_opengl
+from rvsim.gui.renderers.choose import choose_renderer
+from rvsim.gui.renderers.opengl_context import prepare_opengl, probe_opengl
 from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.session import Session
 from rvsim.gui.theme import load_fonts
-from rvsim.lab.named_paths import default_experiment
+from rvsim.lab.lines import default_experiment
 from rvsim.resources import resource
 
 
@@ -45,9 +46,8 @@ def build_window(preferences: Preferences | None = None, *, robot: str = "", ren
 
 
 def user_preferences() -> Preferences:
-    """The user's preferences, kept in the user folder if there is one that can be written."""
-    folder = user_folder()
-    return Preferences(folder / "settings.ini" if folder else None)
+    """The user's preferences, kept in the user folder."""
+    return Preferences(user_folder() / "settings.ini")
 
 
 def make_application(arguments: list[str]) -> QApplication:
@@ -65,8 +65,7 @@ def main(options: argparse.Namespace) -> int:
     """Open the window, or with `options.screenshot` draw it, save it and leave."""
     sys.setswitchinterval(0.001)  # a busy worker must not make the window hiccup
     app = make_application(["rvsim"])
-    folder = user_folder()
-    reporter = CrashReporter(start_log(folder / "log" if folder else None))
+    reporter = CrashReporter(start_log(user_folder() / "log"))
     reporter.install()
     preferences = Preferences() if options.screenshot else user_preferences()
     if options.theme:
@@ -91,7 +90,7 @@ def _screenshot(window: MainWindow, options: argparse.Namespace) -> int:
     _STATES.get(options.state, _show_path)(window, options.state)
     _settle(300)
     try:
-        save_image(window.grab_all(), Path(options.screenshot))
+        save_image(window.picture(), Path(options.screenshot))
     except (RvsimError, OSError) as problem:
         print(problem, file=sys.stderr)
         return 2

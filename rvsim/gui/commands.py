@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,14 +13,15 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from rvsim.errors import RvsimError
-from rvsim.files import save_robot, user_folder
+from rvsim.files import save_robot, user_folder, user_robot_path
+from rvsim.files.atomic import write_atomically
 from rvsim.gui.actions import shortcut_table
 from rvsim.gui.diagnostics import diagnostics
 from rvsim.gui.picture import save_image
 from rvsim.gui.quantities import format_quantity, joint_kind
 from rvsim.kinematics import forward_kinematics
+from rvsim.lab.tables import tracking_csv
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
-from rvsim.lab.tracking_csv import write_tracking_csv
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -97,10 +99,7 @@ class Commands(QObject):
             "copy_pose_text": lambda: self._copy_pose(matrix_text),
             "copy_pose_numpy": lambda: self._copy_pose(matrix_numpy),
             "copy_pose_latex": lambda: self._copy_pose(matrix_latex),
-            **{
-                f"view_{name}": (lambda name=name: view.view(name))
-                for name in ("iso", "top", "front", "side", "source")
-            },
+            **{f"view_{name}": partial(view.view, name) for name in ("iso", "top", "front", "side", "source")},
             "fit": view.fit,
             "box_zoom": view.begin_box_zoom,
             "more_decimals": lambda: self._more_decimals(1),
@@ -178,7 +177,7 @@ class Commands(QObject):
 
     def save_robot(self) -> None:
         """Ask for a place and write the present arm there."""
-        start = str(Path(self._folder()) / f"{self._session.robot.name}.toml")
+        start = str(user_robot_path(self._session.robot.title))
         file, _ = QFileDialog.getSaveFileName(self._window, "Save robot file", start, "Robot files (*.toml)")
         if file:
             self._write(Path(file), lambda path: save_robot(self._session.robot, path))
@@ -198,7 +197,7 @@ class Commands(QObject):
         start = str(Path.home() / f"{tracking.robot.name}-{tracking.path.name}.csv")
         file, _ = QFileDialog.getSaveFileName(self._window, "Save path as CSV", start, "Tables (*.csv)")
         if file:
-            self._write(Path(file), lambda path: write_tracking_csv(tracking, path))
+            self._write(Path(file), lambda path: write_atomically(path, tracking_csv(tracking).encode()))
 
     def _write(self, file: Path, write: Callable[[Path], object]) -> None:
         try:
@@ -209,7 +208,7 @@ class Commands(QObject):
         self._session.say(f"Saved {file}.")
 
     def _folder(self) -> str:
-        return str(user_folder() or Path.home())
+        return str(user_folder())
 
     def _fail(self, what: str, problem: Exception) -> None:
         self._session.say(f"{what} {problem}", "error")

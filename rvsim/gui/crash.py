@@ -30,11 +30,9 @@ _QT_LEVELS = {
 }
 
 
-def start_log(folder: Path | None) -> Path | None:
+def start_log(folder: Path) -> Path | None:
     """Write the log to folder/rvsim.log (1 MB, three old ones kept); None when nothing can be written there."""
     _LOG.setLevel(logging.INFO)
-    if folder is None:
-        return None
     try:
         folder.mkdir(parents=True, exist_ok=True)
         file = folder / "rvsim.log"

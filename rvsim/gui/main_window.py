@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from PySide6.QtCore import QByteArray, Qt
-from PySide6.QtGui import QAction, QCloseEvent
-from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QToolBar, QWidget
+from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap
+from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
 
 from rvsim.experiment import Experiment
+from rvsim.files import find_user_folder
 from rvsim.gui.actions import make_actions
 from rvsim.gui.commands import Commands
 from rvsim.gui.motion_control import MotionControl
@@ -26,6 +25,7 @@ from rvsim.gui.scene_view import SceneView
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.theme import apply_theme, set_role
+from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import ElidedLabel, column_of
 
@@ -49,6 +49,7 @@ class MainWindow(QMainWindow):
         self.tracker = PathTracker(session, self.motion, self)
         self.scene_view = SceneView(renderer_factory(choice))
         self.stage = Stage(session, self.motion, preferences, self.scene_view, self)
+        self.tool_card = ToolCard(session, preferences, self.scene_view)
         self.player_bar = PlayerBar(self.motion, preferences)
         self.joints = JointsPanel(session, preferences)
         self.actions_by_name = make_actions(self)
@@ -68,7 +69,6 @@ class MainWindow(QMainWindow):
     def _make_center(self) -> None:
         center = QWidget()
         column_of(center, self.scene_view, self.player_bar)
-        center.layout().setStretch(0, 1)
         self.setCentralWidget(center)
 
     def _make_docks(self) -> None:
@@ -77,10 +77,10 @@ class MainWindow(QMainWindow):
             | QMainWindow.DockOption.AllowTabbedDocks
             | QMainWindow.DockOption.AllowNestedDocks
         )
-        self.setTabPosition(Qt.DockWidgetArea.RightDockWidgetArea, self.tabWidget_position())
+        self.setTabPosition(Qt.DockWidgetArea.RightDockWidgetArea, QTabWidget.TabPosition.North)
         left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
         arguments = (self.session, self.preferences)
-        self._add_dock("arm_dock", "Arm", self.joints, left)
+        arm = self._add_dock("arm_dock", "Arm", self.joints, left)
         docks = [
             self._add_dock("path_dock", "Path", PathPanel(*arguments, self.tracker), right),
             self._add_dock("tool_dock", "Tool", ToolPanel(*arguments), right),
@@ -91,14 +91,14 @@ class MainWindow(QMainWindow):
         for dock in docks[1:]:
             self.tabifyDockWidget(docks[0], dock)
         docks[0].raise_()
-        self.resizeDocks([self.findChild(QDockWidget, "arm_dock"), docks[0]], [284, 372], Qt.Orientation.Horizontal)
-
-    @staticmethod
-    def tabWidget_position() -> object:
-        """Tabs above the panels, where eyes look first."""
-        from PySide6.QtWidgets import QTabWidget
-
-        return QTabWidget.TabPosition.North
+        self.resizeDocks([arm, docks[0]], [280, 360], Qt.Orientation.Horizontal)
+        panels = QMenu("Panels", self)
+        for dock in (arm, *docks):
+            panels.addAction(dock.toggleViewAction())
+        menu = self.findChild(QMenu, "view_menu")
+        assert menu is not None
+        menu.addSeparator()
+        menu.addMenu(panels)
 
     def _add_dock(self, object_name: str, title: str, panel: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = QDockWidget(title, self)
@@ -123,7 +123,8 @@ class MainWindow(QMainWindow):
 
     def _add_undo_actions(self) -> None:
         stack = self.session.undo_stack
-        edit = self.findChild(QWidget, "edit_menu")
+        edit = self.findChild(QMenu, "edit_menu")
+        assert edit is not None
         first = edit.actions()[0]
         for name, action, keys in (
             ("undo", stack.createUndoAction(self, "Undo"), "Ctrl+Z"),
@@ -190,8 +191,8 @@ class MainWindow(QMainWindow):
     def say_welcome(self) -> None:
         """The first minute: what to do now."""
         self.session.say("Drag a slider, or press Track line.")
-        for problem in self.library.problems:
-            self.session.say(problem, "warning")
+        for problem in (find_user_folder().problem, *self.library.problems):
+            self.session.warn(problem)
 
     # --- layout ----------------------------------------------------------------------------------------------------
 
@@ -206,6 +207,12 @@ class MainWindow(QMainWindow):
         """Geometry and dock layout, as they are now."""
         return self.saveGeometry(), self.saveState(_STATE_VERSION)
 
+    def picture(self) -> QPixmap:
+        """The window as it looks now, with the scene in it whichever renderer draws it."""
+        # OpenGL items that paint texts are missing in a widget's own grab; what is on the screen is whole.
+        on_screen = QGuiApplication.platformName() == "xcb"
+        return self.screen().grabWindow(self.winId()) if on_screen else self.grab()
+
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember the layout; stop what moves."""
         self.motion.pause()
@@ -213,9 +220,3 @@ class MainWindow(QMainWindow):
         self.preferences.keep_window_state("geometry", geometry)
         self.preferences.keep_window_state("layout", layout)
         super().closeEvent(event)
-
-    def on(self, name: str, slot: Callable[..., object]) -> QAction:
-        """Connect a command of the table."""
-        action = self.actions_by_name[name]
-        action.triggered.connect(slot)
-        return action

@@ -22,7 +22,7 @@ SETTINGS: dict[str, Setting] = {
     "extra_decimals": Setting(0, (0, 1, 2, 3, 4)),
     "orientation": Setting("rpy", ("rpy", "zyz", "quaternion", "axis_angle", "matrix")),
     "look": Setting("both", ("stick", "solid", "both")),
-    "show_frames": Setting(True),
+    "show_frames": Setting(False),
     "show_labels": Setting(True),
     "show_floor": Setting(True),
     "show_trail": Setting(True),

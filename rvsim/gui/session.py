@@ -137,6 +137,11 @@ class Session(QObject):
         """A sentence for the status line."""
         self.said.emit(text, level)
 
+    def warn(self, text: str) -> None:
+        """A warning for the status line; nothing for an empty text."""
+        if text:
+            self.say(text, "warning")
+
     def _put(self, experiment: Experiment) -> None:
         before, self._experiment = self._experiment, experiment
         if experiment is before:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from PySide6.QtCore import QObject
 
@@ -58,7 +60,16 @@ class Stage(QObject):
             floor=self._preferences["show_floor"],
         )
         extras = (*self._path, *self._trail_now())
-        self._view.set_scene(compose(self._session.robot, self._session.q, self.palette, options, extras))
+        scene = compose(self._session.robot, self._session.q, self.palette, options, extras)
+        self._view.set_scene(replace(scene, bounds=self._with_path(scene.bounds)))
+
+    def _with_path(self, bounds: FloatArray) -> FloatArray:
+        """The box of the arm, widened to hold the tracked path: one that is out of reach must be seen to be so."""
+        tracking = self._session.tracking
+        if tracking is None:
+            return bounds
+        points = tracking.path.points
+        return np.array([np.minimum(bounds[0], points.min(axis=0)), np.maximum(bounds[1], points.max(axis=0))])
 
     def _trail_now(self) -> tuple[Item, ...]:
         """What the tool has drawn up to the present moment."""

@@ -98,16 +98,22 @@ QAbstractSpinBox:focus, QLineEdit:focus, QComboBox:focus {{ border-color: {accen
 QAbstractSpinBox:read-only {{ background: {window}; }}
 QAbstractSpinBox[outside="true"] {{ border: 2px dashed {error}; }}
 QAbstractSpinBox::up-button, QAbstractSpinBox::down-button {{ width: 0; border: none; }}
-QComboBox::drop-down {{ border: none; width: 20px; }}
+QComboBox::drop-down {{ border: none; width: 22px; }}
+QComboBox::down-arrow {{ image: url({arrow}); width: 10px; height: 10px; }}
 QComboBox QAbstractItemView {{ background: {raised}; border: 1px solid {border}; selection-background-color: {accent};
     selection-color: {on_accent}; }}
 QTableView, QPlainTextEdit, QTextBrowser {{ background: {base}; border: 1px solid {border}; border-radius: 5px;
     gridline-color: {border}; selection-background-color: {accent}; selection-color: {on_accent}; }}
 QHeaderView::section {{ background: {window}; color: {muted}; border: none; border-bottom: 1px solid {border};
     padding: 4px 6px; }}
+QCheckBox::indicator {{ width: 14px; height: 14px; border: 1px solid {muted}; border-radius: 3px; background: {base}; }}
+QCheckBox::indicator:hover, QCheckBox::indicator:focus {{ border-color: {accent}; }}
+QCheckBox::indicator:checked {{ background: {accent}; border-color: {accent}; image: url({check}); }}
+QCheckBox:focus {{ color: {accent}; }}
 QScrollArea {{ border: none; background: transparent; }}
 QStatusBar {{ background: {window}; border-top: 1px solid {border}; }}
 QStatusBar::item {{ border: none; }}
+QLabel#tool_card {{ background: {raised}; border: 1px solid {border}; border-radius: 6px; padding: 5px 8px; }}
 QLabel[role="muted"] {{ color: {muted}; }}
 QLabel[role="title"] {{ font-weight: 600; }}
 QLabel[level="warning"] {{ color: {warning}; }}
@@ -122,7 +128,9 @@ def apply_theme(app: QApplication, name: str, *, presentation: bool = False) -> 
     app.setStyle("Fusion")
     app.setPalette(_palette(theme))
     app.setFont(_font(app, presentation))
-    app.setStyleSheet(_STYLE.format(**theme._asdict()))
+    shade = "dark" if theme.dark else "light"
+    icons = {icon: resource("icons", f"{icon}-{shade}.svg").as_posix() for icon in ("arrow", "check")}
+    app.setStyleSheet(_STYLE.format(**theme._asdict(), **icons))
     return theme
 
 

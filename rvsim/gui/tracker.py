@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from PySide6.QtCore import QObject, Signal
 
 from rvsim.errors import RvsimError
-from rvsim.experiment import Experiment, LineTask, TrajectoryTask
+from rvsim.experiment import Experiment, TrajectoryTask
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.session import Session
-from rvsim.lab.named_paths import line_presets, named_path, trajectory_choices
+from rvsim.lab.lines import line_presets
+from rvsim.lab.named_paths import line_of, named_path
 from rvsim.lab.sentences import tracking_sentence
 from rvsim.motion import Path, Tracking, track, trajectory_of
+
+# Where a path of a source cannot be drawn as printed: the same path where it can.
+_PLACEMENTS = {
+    "letter-raw": "letter-board",
+    "letter-scaled": "letter-flat",
+    "ellipse": "ellipse-moved",
+}
 
 
 class Repair(NamedTuple):
@@ -74,19 +82,12 @@ class PathTracker(QObject):
         self._motion.play()
 
     def _path(self, experiment: Experiment) -> Path:
-        robot, line, task = experiment.robot, experiment.line, experiment.trajectory
+        robot, task = experiment.robot, experiment.trajectory
         if self.kind == "line":
-            return named_path(
-                "line", robot, samples=line.samples, orientation=line.orientation, start=line.start, end=line.end,
-                q=experiment.q,
-            )  # fmt: skip
+            return line_of(robot, experiment.line, experiment.q)
         return named_path(task.name, robot, orientation=task.orientation, height=task.height, q=experiment.q)
 
-    def _task(self) -> LineTask | TrajectoryTask:
-        experiment = self._session.experiment
-        return experiment.line if self.kind == "line" else experiment.trajectory
-
-    def _with_task(self, **changes: object) -> Experiment:
+    def _with_task(self, **changes: Any) -> Experiment:
         experiment = self._session.experiment
         if self.kind == "line":
             return replace(experiment, line=replace(experiment.line, **changes))
@@ -108,10 +109,8 @@ class PathTracker(QObject):
     def _placement(self, tracking: Tracking) -> Repair | None:
         experiment, tip = self._session.experiment, "Move it to a place where the arm reaches all of it"
         if self.kind == "line":
-            preset = line_presets(tracking.robot)[0]
-            line = LineTask(preset.start, preset.end, preset.resolution, preset.orientation)
-            return Repair("Reachable line", tip, replace(experiment, line=line))
-        drawable = trajectory_choices(tracking.robot)[0].name
-        if drawable == experiment.trajectory.name:
+            return Repair("Reachable line", tip, replace(experiment, line=line_presets(tracking.robot)[0].task()))
+        drawable = _PLACEMENTS.get(experiment.trajectory.name)
+        if drawable is None:
             return None
         return Repair("Drawable placement", tip, replace(experiment, trajectory=TrajectoryTask(drawable)))

@@ -26,6 +26,7 @@ def combo(object_name: str, title: str, choices: Mapping[str, str] | None = None
     box.setToolTip(title)
     box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
     box.setMinimumContentsLength(8)
+    box.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
     for data, text in (choices or {}).items():
         box.addItem(text, data)
     return box
@@ -70,13 +71,14 @@ def scrolled(inside: QWidget) -> QScrollArea:
     return area
 
 
-def column_of(widget: QWidget, *parts: QWidget) -> None:
-    """Put the parts below each other into a widget, filling it."""
+def column_of(widget: QWidget, first: QWidget, *others: QWidget) -> None:
+    """Put widgets below each other into a widget, the first one filling it."""
     column = QVBoxLayout(widget)
     column.setContentsMargins(0, 0, 0, 0)
     column.setSpacing(0)
-    for part in parts:
-        column.addWidget(part)
+    column.addWidget(first, 1)
+    for other in others:
+        column.addWidget(other)
 
 
 class ElidedLabel(QLabel):

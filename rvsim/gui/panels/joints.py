@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import secrets
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -17,7 +18,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QSizePolicy,
     QSlider,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -113,7 +113,8 @@ class JointRow(QWidget):
     def show_limits(self, ignore_limits: bool) -> None:
         """Write the limits at the slider's ends and let box and slider go as far as they may."""
         lower, upper = self._robot.limits[self._index]
-        self.box.set_range(*(-math.inf, math.inf) if ignore_limits else (lower, upper), hint=_IGNORE_HINT)
+        taken = (-math.inf, math.inf) if ignore_limits else (float(lower), float(upper))
+        self.box.set_range(taken[0], taken[1], _IGNORE_HINT)
         shown = display(self._kind, self._preferences)
         ends = slider_range(self._robot, self._index, ignore_limits)
         for label, limit, end in zip((self._lower, self._upper), (lower, upper), ends, strict=True):
@@ -181,6 +182,10 @@ class JointsPanel(QWidget):
         preferences.changed.connect(self._on_preference)
         self._make_rows()
 
+    def sizeHint(self) -> QSize:
+        """Narrow: the room belongs to the scene."""
+        return QSize(280, 600)
+
     # --- construction ----------------------------------------------------------------------------------------------
 
     def _make_controls(self) -> None:
@@ -199,12 +204,10 @@ class JointsPanel(QWidget):
         self.ignore.toggled.connect(self._on_ignore)
         self.poses = combo("pose_selector", "Saved poses")
         self.poses.activated.connect(self._recall)
-        self.save_pose = QToolButton(text="Save…", objectName="save_pose_button", toolTip="Save this pose under a name")
-        self.save_pose.clicked.connect(self.ask_pose_name)
-        self.forget_pose = QToolButton(
-            text="Forget", objectName="forget_pose_button", toolTip="Forget the pose chosen in the list"
-        )
-        self.forget_pose.clicked.connect(self._forget)
+        tip = "Save this pose under a name (Ctrl+D)"
+        self.save_pose = button("save_pose_button", "Save…", tip, self.ask_pose_name)
+        tip = "Forget the pose chosen in the list"
+        self.forget_pose = button("forget_pose_button", "Forget", tip, self._forget)
 
     def _lay_out(self) -> None:
         scroll = scrolled(self._joints)
@@ -230,12 +233,12 @@ class JointsPanel(QWidget):
         above = QVBoxLayout()
         above.setContentsMargins(12, 4, 12, 4)
         above.addWidget(self.robots)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addLayout(above)
-        column.addWidget(scroll, 1)
-        column.addLayout(below)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addLayout(above)
+        whole.addWidget(scroll, 1)
+        whole.addLayout(below)
 
     def show_robots(self, titles: dict[str, str], current: str) -> None:
         """Offer these arms: name → title."""
@@ -257,7 +260,7 @@ class JointsPanel(QWidget):
             self._joints_column.addWidget(row)
             row.moved.connect(self._on_moved)
             row.released.connect(self._session.end_stroke)
-            row.refused.connect(self._on_refused)
+            row.refused.connect(self._session.warn)
         self._joints_column.addStretch(1)
         self._chain_tabs()
         self._show_limits()
@@ -326,10 +329,6 @@ class JointsPanel(QWidget):
             self._show_pose()
             self._session.say("Typed, not drawn yet: press Plot.")
 
-    def _on_refused(self, sentence: str) -> None:
-        if sentence:
-            self._session.say(sentence, "warning")
-
     def _on_ignore(self, on: bool) -> None:
         text = "Ignore limits" if on else "Respect limits"
         self._session.edit(text, replace(self._session.experiment, ignore_limits=on))
@@ -355,8 +354,7 @@ class JointsPanel(QWidget):
 
     def go_random(self) -> None:
         """Go to any pose within the limits."""
-        seed = int(np.random.SeedSequence().entropy or 0)
-        self._session.move_to(random_pose(self._session.robot, seed), "Random pose")
+        self._session.move_to(random_pose(self._session.robot, secrets.randbits(64)), "Random pose")
 
     def ask_pose_name(self) -> None:
         """Save the present pose under a name that the user types."""

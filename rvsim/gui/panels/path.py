@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt
@@ -18,19 +19,21 @@ from PySide6.QtWidgets import (
 
 from rvsim.experiment import Experiment, LineTask, TrajectoryTask
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import format_quantity, format_scientific, length_kind
+from rvsim.gui.quantities import format_scientific, length_kind
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker, Repair
 from rvsim.gui.widgets import button, column_of, combo, form, scrolled, select
-from rvsim.lab.named_paths import line_presets, trajectory_choices
+from rvsim.lab.lines import LinePreset, line_presets
+from rvsim.lab.named_paths import path_entry, path_names
 from rvsim.lab.sentences import tracking_sentence
 from rvsim.motion import Tracking
 
 _LINE_ORIENTATIONS = {"down": "Tool straight down", "free": "Tool tilts as it likes", "keep": "Tool as it is now"}
 _PATH_ORIENTATIONS = {"source": "As in the source", **_LINE_ORIENTATIONS}
 _AXES = ("x", "y", "z")
+_NEEDS_HEIGHT = "letter-scaled"  # its source gives no height
 
 
 class LineSection(QGroupBox):
@@ -46,7 +49,7 @@ class LineSection(QGroupBox):
         self.resolution.setObjectName("line_resolution")
         self.resolution.set_range(0.001, 1.0, "1 gives the two ends alone, 0.001 a thousand pieces.")
         self.resolution.quantity_changed.connect(lambda value: self._edit("line step", resolution=value))
-        self.resolution.refused.connect(lambda text: text and session.say(text, "warning"))
+        self.resolution.refused.connect(session.warn)
         self.samples = QLabel()
         set_role(self.samples, role="muted")
         self.orientation = combo("line_orientation", "Tool orientation along the line", _LINE_ORIENTATIONS)
@@ -62,7 +65,7 @@ class LineSection(QGroupBox):
         box.setObjectName(f"line_{end}_{axis}")
         box.setMinimumWidth(84)
         box.quantity_changed.connect(lambda _: self._on_point(end))
-        box.refused.connect(lambda text: text and self._session.say(text, "warning"))
+        box.refused.connect(self._session.warn)
         box.editingFinished.connect(self._session.end_stroke)
         return box
 
@@ -113,15 +116,15 @@ class LineSection(QGroupBox):
     def _on_preset(self, index: int) -> None:
         preset = self.presets.itemData(index)
         if preset is not None:
-            line = LineTask(preset.start, preset.end, preset.resolution, preset.orientation)
-            self._session.edit(f"Line: {preset.title}", replace(self._session.experiment, line=line))
+            line = replace(self._session.experiment, line=preset.task())
+            self._session.edit(f"Line: {preset.title}", line)
 
     def _on_point(self, end: str) -> None:
         self._edit(f"line {end}", **{end: [box.quantity for box in self.boxes[end]]})
 
-    def _edit(self, what: str, **changes: object) -> None:
+    def _edit(self, what: str, **changes: Any) -> None:
         experiment = self._session.experiment
-        line = replace(experiment.line, **changes)  # type: ignore[arg-type]
+        line = replace(experiment.line, **changes)
         self._session.edit(f"Edit {what}", replace(experiment, line=line), merge=what)
 
 
@@ -135,10 +138,10 @@ class TrajectorySection(QGroupBox):
         self.selector.activated.connect(self._on_chosen)
         self.orientation = combo("trajectory_orientation", "Tool orientation along the trajectory", _PATH_ORIENTATIONS)
         self.orientation.activated.connect(lambda _: self._edit(orientation=self.orientation.currentData()))
-        self.height = QuantityBox("length", preferences, "Height of the drawing plane")
-        self.height.setObjectName("trajectory_height")
-        self.height.quantity_changed.connect(lambda value: self._edit(height=value))
-        self.height_label = QLabel("Height")
+        self.plane = QuantityBox("length", preferences, "Height of the drawing plane")
+        self.plane.setObjectName("trajectory_height")
+        self.plane.quantity_changed.connect(lambda value: self._edit(height=value))
+        self.plane_label = QLabel("Height")
         self.notes = QLabel(wordWrap=True)
         set_role(self.notes, role="muted")
         tip = "Solve the trajectory and move the tool along it (Ctrl+T)"
@@ -147,36 +150,34 @@ class TrajectorySection(QGroupBox):
         rows.addRow(self.selector)
         rows.addRow(self.notes)
         rows.addRow("Tool", self.orientation)
-        rows.addRow(self.height_label, self.height)
+        rows.addRow(self.plane_label, self.plane)
         rows.addRow(self.button)
         self.setLayout(rows)
 
     def show_task(self, experiment: Experiment) -> None:
         """Show the trajectory of the experiment."""
-        choices = trajectory_choices(experiment.robot)
         task = experiment.trajectory
+        names = [name for name in path_names(experiment.robot) if name != "line"]
         with QSignalBlocker(self.selector):
             self.selector.clear()
-            for choice in choices:
-                self.selector.addItem(choice.title, choice.name)
+            for name in names:
+                self.selector.addItem(path_entry(name).title, name)
             self.selector.setCurrentIndex(self.selector.findData(task.name))
-        chosen = next((choice for choice in choices if choice.name == task.name), None)
-        self.notes.setText(chosen.notes if chosen else "No trajectory for this arm yet.")
-        self.button.setEnabled(chosen is not None)
+        self.notes.setText(path_entry(task.name).citation)
         select(self.orientation, task.orientation)
-        self.height.set_kind(length_kind(experiment.robot))
-        self.height.set_quantity(task.height)
-        for widget in (self.height, self.height_label):
-            widget.setVisible(chosen is not None and chosen.needs_height)
+        self.plane.set_kind(length_kind(experiment.robot))
+        self.plane.set_quantity(task.height)
+        for widget in (self.plane, self.plane_label):
+            widget.setVisible(task.name == _NEEDS_HEIGHT)
 
     def _on_chosen(self, index: int) -> None:
         task = TrajectoryTask(self.selector.itemData(index))
         experiment = self._session.experiment
         self._session.edit(f"Trajectory: {self.selector.itemText(index)}", replace(experiment, trajectory=task))
 
-    def _edit(self, **changes: object) -> None:
+    def _edit(self, **changes: Any) -> None:
         experiment = self._session.experiment
-        task = replace(experiment.trajectory, **changes)  # type: ignore[arg-type]
+        task = replace(experiment.trajectory, **changes)
         self._session.edit("Edit trajectory", replace(experiment, trajectory=task), merge="trajectory")
 
 
@@ -192,7 +193,7 @@ class ResultSection(QGroupBox):
         self.sentence = QLabel(wordWrap=True)
         self.sentence.setObjectName("tracking_sentence")
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._repairs = QHBoxLayout()
+        self._repairs = QVBoxLayout()
         self._repairs.setSpacing(6)
         rows = form()
         rows.addRow("Reached", self.reached)
@@ -207,7 +208,9 @@ class ResultSection(QGroupBox):
     def show_tracking(self, tracking: Tracking | None) -> None:
         """Show the result, or what to do to get one."""
         while self._repairs.count():
-            self._repairs.takeAt(0).widget().deleteLater()
+            item = self._repairs.takeAt(0)
+            if item is not None and (old := item.widget()) is not None:
+                old.deleteLater()
         if tracking is None:
             for label in (self.reached, self.rms, self.largest, self.time):
                 label.setText("\u2013")
@@ -219,14 +222,14 @@ class ResultSection(QGroupBox):
         set_role(self.sentence, level="good" if tracking.complete else "warning")
         for repair in self._tracker.repairs():
             self._repairs.addWidget(self._repair_button(repair))
-        self._repairs.addStretch(1)
 
     def _show_numbers(self, tracking: Tracking) -> None:
-        of_reached = "" if tracking.complete else "  (of the reached points)"
         self.reached.setText(f"{tracking.reached_count} of {tracking.samples} points")
+        of_reached = " (reached points)" if tracking.reached_count < tracking.samples else ""
         self.rms.setText(_deviation(tracking.rms, tracking) + of_reached)
-        self.largest.setText(_deviation(tracking.max_deviation, tracking))
-        self.time.setText(f"{tracking.solve_seconds * 1e3:.2f} ms  ({tracking.seconds_per_point * 1e6:.0f} µs a point)")
+        self.largest.setText(_deviation(tracking.max_deviation, tracking) + of_reached)
+        milliseconds = tracking.solve_seconds * 1e3
+        self.time.setText(f"{milliseconds:.2f} ms ({tracking.seconds_per_point * 1e6:.0f} µs a point)")
 
     def _repair_button(self, repair: Repair) -> QPushButton:
         name = "repair_" + repair.title.lower().replace(" ", "_")
@@ -245,6 +248,7 @@ class PathPanel(QWidget):
         self.trajectory = TrajectorySection(session, preferences, tracker)
         self.result = ResultSection(session, preferences, tracker)
         inside = QWidget()
+        inside.setMinimumWidth(0)
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 0, 12, 8)
         column.setSpacing(4)
@@ -271,15 +275,11 @@ class PathPanel(QWidget):
 
 def _deviation(value: float | None, tracking: Tracking) -> str:
     if value is None:
-        return "\u2013  (no point was reached)"
+        return "\u2013"
     unit = " mm" if tracking.robot.length_unit == "millimetre" else " unit"
     factor = 1e3 if unit == " mm" else 1.0
     return format_scientific(value * factor) + unit
 
 
-def _same_line(preset: object, line: LineTask) -> bool:
-    return (
-        np.allclose(preset.start, line.start, atol=1e-12)  # type: ignore[attr-defined]
-        and np.allclose(preset.end, line.end, atol=1e-12)  # type: ignore[attr-defined]
-        and abs(preset.resolution - line.resolution) < 1e-12  # type: ignore[attr-defined]
-    )
+def _same_line(preset: LinePreset, line: LineTask) -> bool:
+    return np.allclose(preset.start, line.start, atol=1e-12) and np.allclose(preset.end, line.end, atol=1e-12)

@@ -1,0 +1,149 @@
+"""How fast the window is: value change to painted frame, first window, memory over many frames.
+
+Each figure comes from a process of its own, on a virtual X server where there is no screen. Wall-clock times: what a
+person waits for. Absolute figures of one machine; read them beside the machine's name.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+
+FRAMES, MEMORY_FRAMES = 400, 10_000
+
+
+def main() -> int:
+    """Run every measurement and print a row each."""
+    rows = [
+        ("value change to painted frame, own renderer, 1280×720, p95", "≤ 16 ms", ("frame", "auto", "1280", "720")),
+        ("the same with OpenGL forced (software here), 800×600 view, p95", "≤ 40 ms", ("frame", "gl", "800", "600")),
+        ("first window painted, warm, median of 5", "≤ 1.0 s", ("startup",)),
+        ("resident memory after 10,000 frames", "≤ 280 MB, flat", ("memory",)),
+    ]  # fmt: skip
+    with _display() as environment:
+        for title, target, mode in rows:
+            print(f"{title:78s} {target:16s} {_measured(mode, environment)}", flush=True)
+    return 0
+
+
+def _measured(mode: tuple[str, ...], environment: dict[str, str]) -> str:
+    if mode[0] == "startup":
+        times = sorted(json.loads(_child(mode, environment))["seconds"] for _ in range(6))[:5]
+        return f"{times[2]:.2f} s  ({times[0]:.2f} … {times[-1]:.2f})"
+    found = json.loads(_child(mode, environment))
+    if mode[0] == "memory":
+        return f"{found['before']:.0f} MB after 500 frames, {found['after']:.0f} MB after {MEMORY_FRAMES}"
+    return f"{found['p95']:.1f} ms  (median {found['median']:.1f}, {found['renderer']})"
+
+
+def _child(mode: tuple[str, ...], environment: dict[str, str]) -> str:
+    command = [sys.executable, __file__, *mode, str(time.time())]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise SystemExit(f"{mode} failed:\n{done.stderr}")
+    return done.stdout.strip().splitlines()[-1]
+
+
+@contextlib.contextmanager
+def _display() -> Iterator[dict[str, str]]:
+    """The environment with a display: the present one, or a virtual X server for as long as this lasts."""
+    environment = {key: value for key, value in os.environ.items() if key != "QT_QPA_PLATFORM"}
+    if sys.platform != "linux" or environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY"):
+        yield environment
+        return
+    reader, writer = os.pipe()
+    arguments = ["Xvfb", "-displayfd", str(writer), "-screen", "0", "1366x900x24", "-nolisten", "tcp"]
+    server = subprocess.Popen(arguments, pass_fds=[writer], stderr=subprocess.DEVNULL)
+    os.close(writer)
+    try:
+        with os.fdopen(reader) as lines:
+            number = lines.readline().strip()
+        yield {**environment, "DISPLAY": f":{number}", "QT_QPA_PLATFORM": "xcb"}
+    finally:
+        server.terminate()
+        server.wait()
+
+
+# --- in the child ----------------------------------------------------------------------------------------------------
+
+
+def child(arguments: list[str]) -> None:
+    """One measurement, printed as one JSON line."""
+    mode, started = arguments[0], float(arguments[-1])
+    from rvsim.gui.app import build_window, make_application
+    from rvsim.gui.preferences import Preferences
+
+    app = make_application(["rvsim"])
+    renderer = arguments[1] if mode == "frame" else "auto"
+    window = build_window(Preferences(), robot="rv-m1", renderer=renderer)
+    painted: list[float] = []
+    window.scene_view.painted.connect(lambda _: painted.append(time.perf_counter()))
+    window.resize(1280, 720)
+    if mode == "frame" and renderer == "gl":
+        window.scene_view.setFixedSize(int(arguments[2]), int(arguments[3]))
+    window.show()
+    _until(app, lambda: bool(painted))
+    if mode == "startup":
+        print(json.dumps({"seconds": time.time() - started}))
+    elif mode == "frame":
+        print(json.dumps(_frame_times(app, window, painted)))
+    else:
+        print(json.dumps(_memory(app, window, painted)))
+    sys.stdout.flush()
+    os._exit(0)
+
+
+def _until(app: object, done: object, seconds: float = 20.0) -> None:
+    end = time.perf_counter() + seconds
+    while not done():  # type: ignore[operator]
+        app.processEvents()  # type: ignore[attr-defined]
+        if time.perf_counter() > end:
+            raise SystemExit("nothing was painted within 20 s")
+
+
+def _change(window: object, number: int) -> None:
+    box = window.joints._rows[number % 2].box  # type: ignore[attr-defined]
+    box.setValue(-60.0 + (number * 7) % 100 if number % 2 == 0 else (number * 3) % 90)
+
+
+def _frame_times(app: object, window: object, painted: list[float]) -> dict[str, object]:
+    window.preferences.set("show_frames", True)  # type: ignore[attr-defined]
+    times = []
+    for number in range(FRAMES):
+        app.processEvents()  # type: ignore[attr-defined]
+        painted.clear()
+        start = time.perf_counter()
+        _change(window, number)
+        _until(app, lambda: bool(painted))
+        times.append((painted[-1] - start) * 1e3)
+    times = sorted(times[20:])
+    name = window.scene_view.renderer.description  # type: ignore[attr-defined]
+    return {"median": times[len(times) // 2], "p95": times[int(0.95 * len(times))], "renderer": name}
+
+
+def _memory(app: object, window: object, painted: list[float]) -> dict[str, float]:
+    before = 0.0
+    for number in range(MEMORY_FRAMES):
+        painted.clear()
+        _change(window, number)
+        _until(app, lambda: bool(painted))
+        if number == 500:
+            before = _resident_mb()
+    return {"before": before, "after": _resident_mb()}
+
+
+def _resident_mb() -> float:
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 2 and sys.argv[1] in ("frame", "startup", "memory"):
+        child(sys.argv[1:])
+    else:
+        sys.exit(main())
