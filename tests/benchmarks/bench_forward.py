@@ -1,6 +1,6 @@
 """Forward kinematics and the Jacobian of the UR5e, against the Robotics Toolbox and Pinocchio.
 
-Aims: at least 10 times as fast as the toolbox for 100,000 poses, 2.5 times for a single one.
+The toolbox is called in its quickest public form for arrays; Pinocchio has none for arrays and is looped over.
 """
 
 from __future__ import annotations
@@ -43,17 +43,17 @@ class PinocchioArm:
             self._model.addJoint(number, pinocchio.JointModelRZ(), start, joint.name)
             turn = pinocchio.AngleAxis(joint.alpha, np.array([1.0, 0, 0])).matrix()
             placement = pinocchio.SE3(turn, np.array([joint.a, 0, joint.d]))
-        self._end = placement
+        self._T_joint_tool = placement.homogeneous
         self._data = self._model.createData()
 
     def forward(self, q: np.ndarray) -> np.ndarray:
-        """(m, n) -> (m, 4, 4), pose after pose, as the library's users write it."""
+        """(m, n) -> (m, 4, 4), pose after pose; the fixed last step is done for all at once, as is quickest."""
         result = np.empty((len(q), 4, 4))
         last = self._model.njoints - 1
         for index, pose in enumerate(q):
             self._pinocchio.forwardKinematics(self._model, self._data, pose)
-            result[index] = (self._data.oMi[last] * self._end).homogeneous
-        return result
+            result[index] = self._data.oMi[last].homogeneous
+        return result @ self._T_joint_tool
 
 
 def forward_races(robot: Robot, toolbox: Any, q: np.ndarray) -> list[Race]:
@@ -65,8 +65,8 @@ def forward_races(robot: Robot, toolbox: Any, q: np.ndarray) -> list[Race]:
     ]
     theirs = [Side("toolbox ets.eval", lambda: toolbox.eval(q)), Side("toolbox ets.eval", lambda: toolbox.eval(one))]
     return [
-        race(f"forward, {MANY} poses", ours[0], theirs[0], items=MANY),
-        race("forward, one pose", ours[1], theirs[1], items=1),
+        race(f"forward, {MANY} poses", ours[0], theirs[0], items=MANY, aim=10.0),
+        race("forward, one pose", ours[1], theirs[1], items=1, aim=2.5),
     ]
 
 

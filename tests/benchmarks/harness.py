@@ -42,10 +42,11 @@ class Race(NamedTuple):
     ratio: float
     lowest: float
     highest: float
+    aim: float | None
 
 
-def race(work: str, ours: Side, peer: Side, items: int, tolerance: float = 1e-9) -> Race:
-    """Time both sides on the same work of so many items, one sample of each in turn.
+def race(work: str, ours: Side, peer: Side, items: int, *, aim: float | None = None, tolerance: float = 1e-9) -> Race:
+    """Time both sides on the same work of so many items, one sample of each in turn; `aim` is the ratio wished for.
 
     Raises:
         ValueError: the answers differ by more than the tolerance; then there is nothing to compare.
@@ -59,7 +60,7 @@ def race(work: str, ours: Side, peer: Side, items: int, tolerance: float = 1e-9)
                 samples[side].append(_sample(side.call, calls[side]) / (calls[side] * items))
     ratios = [theirs / own for own, theirs in zip(samples[ours], samples[peer], strict=True)]
     own, theirs = (statistics.median(samples[side]) for side in (ours, peer))
-    return Race(work, peer.name, own, theirs, theirs / own, min(ratios), max(ratios))
+    return Race(work, peer.name, own, theirs, theirs / own, min(ratios), max(ratios), aim)
 
 
 def _agree(work: str, ours: Side, peer: Side, tolerance: float) -> None:
@@ -103,11 +104,15 @@ def duration(seconds: float) -> str:
 
 def print_races(title: str, races: Iterable[Race]) -> None:
     """The table of ratios; the range is that of the pairs of samples."""
-    rows = [
-        (r.work, duration(r.ours), r.peer, duration(r.theirs), f"{r.ratio:.1f}", f"{r.lowest:.1f}-{r.highest:.1f}")
-        for r in races
-    ]
-    print_table(title, ("work, an item", "rvsim", "peer", "peer's time", "times faster", "range"), rows)
+    print_table(
+        title, ("work, an item", "rvsim", "peer", "peer's time", "times faster", "range", "aim"), map(_row, races)
+    )
+
+
+def _row(r: Race) -> tuple[str, ...]:
+    spread = f"{r.lowest:.1f} … {r.highest:.1f}"
+    aim = "" if r.aim is None else f"≥ {r.aim:g} {'reached' if r.ratio >= r.aim else 'MISSED'}"
+    return r.work, duration(r.ours), r.peer, duration(r.theirs), f"{r.ratio:.1f}", spread, aim
 
 
 def print_table(title: str, head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
