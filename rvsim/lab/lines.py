@@ -45,15 +45,15 @@ _LINES: dict[str, tuple[_Row, ...]] = {
         _Row((300, -180, 110), (300, 180, 210), "down"),
         _Row((110, 0, 130), (230, 0, 333), "down", 0.1, "Source 000", "source-000"),
     ),
-    "rv-1a": (_Row((380, -220, 180), (380, 220, 330), "down"),),
+    "rv-1a": (_Row((320, -180, 150), (320, 180, 250), "down"),),
     "ur5e": (_Row((450, -350, 150), (450, 350, 450), "down"),),
     "rrrp": (_Row((4800, 3200, 4500), (4800, 4800, 5500), "free"),),
     "al5b": (_Row((180, -90, 30), (180, 90, 70), "down"),),
     "planar": (_Row((400, -150, 120), (100, 400, 120), "free"),),
-    "articulated": (_Row((400, -300, 350), (400, 300, 650), "free"),),
+    "articulated": (_Row((400, -250, 350), (400, 250, 600), "free"),),
     "spherical": (_Row((250, -250, 450), (250, 250, 700), "free"),),
     "scara": (_Row((350, -250, 180), (350, 250, 290), "down"),),
-    "cylindrical": (_Row((280, -250, 220), (280, 250, 420), "free"),),
+    "cylindrical": (_Row((320, -250, 220), (320, 250, 420), "free"),),
     "cartesian": (_Row((50, 50, 50), (550, 350, 220), "free"),),
 }
 # Directions and lengths that are tried for an arm of one's own, through the tool's place at home.

@@ -16,21 +16,34 @@ from rvsim.motion import TOOL_DOWN, Path
 from rvsim.motion.path import radial_rotations
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
-from rvsim.spatial import rot_z
+from rvsim.spatial import rot_x, rot_z, rotation_from_vector
 
 ORIENTATIONS: tuple[PathOrientation, ...] = get_args(PathOrientation)
 
 SourceRotations = Callable[[FloatArray], FloatArray]
 
-# The AL5B's wrist turns by ±90° only: seen from its zero pose the tool points down turned by half a turn.
-_DOWN_TURNED = {"al5b": np.diag([-1.0, 1.0, -1.0])}
+# Arms whose wrist is made to look the other way hold their tools so: turned about the vertical by half a turn.
+_DOWN_TURNED = np.diag([-1.0, 1.0, -1.0])
+_UPRIGHT_CUT = 1e-9
 # Arms of three joints or fewer place the tool; how it is turned follows.
 _FEWEST_JOINTS_TO_TURN = 4
 
 
 def down_rotation(robot: Robot) -> FloatArray:
-    """(3, 3) tool-down, turned about the vertical as the arm's wrist can."""
-    return np.asarray(_DOWN_TURNED.get(robot.name, TOOL_DOWN))
+    """(3, 3) tool-down: that of source 000, or turned by half a turn where the wrist lies nearer to that at home."""
+    lowered = _lowered(forward_kinematics(robot, robot.home)[:3, :3])
+    turned = lowered[0, 0] - lowered[1, 1] < -_UPRIGHT_CUT
+    return _DOWN_TURNED if turned else np.asarray(TOOL_DOWN)
+
+
+def _lowered(rotation: FloatArray) -> FloatArray:
+    """A rotation (3, 3) turned as little as possible until its z axis points down."""
+    axis = np.cross(rotation[:, 2], (0.0, 0.0, -1.0))
+    sine = float(np.linalg.norm(axis))
+    if sine < _UPRIGHT_CUT:
+        return rotation if rotation[2, 2] < 0.0 else np.asarray(rot_x(np.pi) @ rotation)
+    angle = np.arctan2(sine, -rotation[2, 2])
+    return np.asarray(rotation_from_vector(axis / sine * angle) @ rotation)
 
 
 def level_rotations(points: FloatArray) -> FloatArray:
