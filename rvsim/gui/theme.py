@@ -72,13 +72,13 @@ QToolButton {{ border: 1px solid transparent; border-radius: 5px; padding: 4px 8
 QToolButton:hover {{ background: {raised}; border-color: {border}; }}
 QToolButton:checked, QToolButton:pressed {{ background: {raised}; border-color: {accent}; }}
 QToolButton:focus {{ border-color: {accent}; }}
-QPushButton {{ background: {raised}; border: 1px solid {border}; border-radius: 5px; padding: 5px 12px; }}
+QPushButton {{ background: {raised}; border: 1px solid {border}; border-radius: 5px; padding: 5px 8px; min-width: 40px; }}
 QPushButton:hover {{ border-color: {accent}; }}
 QPushButton:pressed, QPushButton:checked {{ background: {window}; border-color: {accent}; }}
 QPushButton:focus {{ border-color: {accent}; }}
 QPushButton:disabled {{ color: {muted}; background: {window}; }}
 QPushButton[primary="true"] {{ background: {accent}; color: {on_accent}; border-color: {accent}; font-weight: 600; }}
-QPushButton[primary="true"]:focus {{ border: 2px solid {text}; padding: 4px 11px; }}
+QPushButton[primary="true"]:focus {{ border: 2px solid {text}; padding: 4px 7px; }}
 QPushButton[primary="true"]:disabled {{ background: {border}; border-color: {border}; color: {muted}; }}
 QDockWidget {{ font-weight: 600; }}
 QDockWidget::title {{ background: {window}; padding: 6px 8px; }}
