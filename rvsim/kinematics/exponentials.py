@@ -9,7 +9,7 @@ met again on the way. Source: Murray, Li, Sastry (1994), eq. (3.4); Lynch and Pa
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -36,9 +36,8 @@ class ProductOfExponentials:
 
     def forward(self, q: FloatArray) -> FloatArray:
         """T_base_tool (..., 4, 4) of q (..., n) [rad, m]."""
-        T = np.broadcast_to(self.M, (*q.shape[:-1], 4, 4))
-        for screw, value in zip(self.screws[::-1], np.moveaxis(q, -1, 0)[::-1], strict=True):
-            T = transform_from_twist(screw * value[..., None]) @ T
+        motions = transform_from_twist(self.screws * q[..., None])
+        T: FloatArray = reduce(np.matmul, np.moveaxis(motions, -3, 0)) @ self.M
         return T
 
 
