@@ -26,15 +26,21 @@ _NEWTON_STEPS = 25
 
 def beside_segment(robot: Robot, q0: FloatArray, q1: FloatArray, with_rotation: bool) -> NDArray[np.bool_]:
     """(k,) whether the midpoints of poses (k, n) and (k, n) keep to the tool's straight way from one to the other."""
-    T = forward_kinematics(robot, np.stack([q0, 0.5 * (q0 + q1), q1]))
-    start, middle, end = T[..., :3, 3]
-    chord = end - start
+    T0, T1 = forward_kinematics(robot, q0), forward_kinematics(robot, q1)
+    return keeps_to_segment(robot, T0, forward_kinematics(robot, 0.5 * (q0 + q1)), T1, with_rotation)
+
+
+def keeps_to_segment(
+    robot: Robot, start: FloatArray, middle: FloatArray, end: FloatArray, with_rotation: bool
+) -> NDArray[np.bool_]:
+    """(k,) whether the tool in `middle` is on the straight way from `start` to `end`, poses (k, 4, 4) each."""
+    chord, way = end[:, :3, 3] - start[:, :3, 3], middle[:, :3, 3] - start[:, :3, 3]
     squared = np.maximum(np.sum(chord**2, axis=-1), 1e-300)
-    along = np.clip(np.sum((middle - start) * chord, axis=-1) / squared, 0.0, 1.0)
-    sideways = np.linalg.norm(middle - start - along[:, None] * chord, axis=-1)
-    near = sideways <= _SIDEWAYS * np.linalg.norm(chord, axis=-1) + _SAME_PLACE * robot.size
+    along = np.clip(np.sum(way * chord, axis=-1) / squared, 0.0, 1.0)
+    sideways = np.linalg.norm(way - along[:, None] * chord, axis=-1)
+    near = sideways <= _SIDEWAYS * np.sqrt(squared) + _SAME_PLACE * robot.size
     if with_rotation:
-        near &= _tilt(*T[..., :3, :3]) <= _TILT
+        near &= _tilt(start[:, :3, :3], middle[:, :3, :3], end[:, :3, :3]) <= _TILT
     return np.asarray(near)
 
 

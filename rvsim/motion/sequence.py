@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rvsim.motion.continuity import beside_segment
+from rvsim.kinematics.forward import forward_kinematics
+from rvsim.motion.continuity import keeps_to_segment
 from rvsim.motion.turns import JointRange, existing, nearest_turn, whole_turns
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -87,15 +88,19 @@ def _steps(
     robot: Robot, q: FloatArray, adjacent: NDArray[np.bool_], joints: JointRange, with_rotation: bool
 ) -> list[tuple[FloatArray, NDArray[np.bool_]]]:
     """For each pair of successive points the joint steps (s, s, n) and whether each keeps to the path (s, s)."""
+    T = forward_kinematics(robot, q)
     steps = []
     block = max(_BLOCK // q.shape[1] ** 2, 1)
     for first in range(0, len(q) - 1, block):
-        here, there = q[first : first + block + 1][:-1, :, None], q[first : first + block + 1][1:, None, :]
+        last = min(first + block, len(q) - 1)
+        here, there = q[first:last, :, None], q[first + 1 : last + 1, None, :]
         step = nearest_turn(there - here, joints.periodic)
-        start = np.broadcast_to(here, step.shape)
-        asked = existing(step) & adjacent[first : first + block, None, None]
+        asked = existing(step) & adjacent[first:last, None, None]
+        point, branch, next_branch = np.nonzero(asked)
+        middle = forward_kinematics(robot, (here + 0.5 * step)[asked])
+        ends = T[first + point, branch], T[first + 1 + point, next_branch]
         kept = np.zeros(asked.shape, dtype=bool)
-        kept[asked] = beside_segment(robot, start[asked], (start + step)[asked], with_rotation)
+        kept[asked] = keeps_to_segment(robot, ends[0], middle, ends[1], with_rotation)
         steps += list(zip(step, kept, strict=True))
     return steps
 

@@ -21,7 +21,9 @@ Phase = Literal["approach", "path"]
 # arm's size, in a second. No number for a real arm.
 _EASY_TURN = np.pi / 2
 _EASY_SIZES = 0.5
-_SHORTEST_MOVE = 0.3
+_SHORTEST_MOVE = 0.4
+# Where no time is asked for, a move uses this part of the joints' speeds.
+_CALM = 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,8 +171,8 @@ def _runs(tracking: Tracking) -> list[tuple[int, int]]:
 
 def _move(robot: Robot, q0: ArrayLike, q1: ArrayLike, seconds: float | None, progress: float, phase: Phase) -> Stretch:
     ends = np.array([np.asarray(q0, dtype=np.float64), np.asarray(q1, dtype=np.float64)])
-    slowest = float(np.max(np.abs(ends[1] - ends[0]) / _speeds(robot)))
-    duration = max(seconds or _SHORTEST_MOVE, QUINTIC_PEAK_SPEED * slowest)
+    shortest = QUINTIC_PEAK_SPEED * float(np.max(np.abs(ends[1] - ends[0]) / _speeds(robot)))
+    duration = max(seconds or _SHORTEST_MOVE, shortest if seconds else shortest / _CALM)
     return Stretch(duration, np.array([0.0, 1.0]), ends, np.full(2, progress), phase)
 
 
@@ -203,5 +205,5 @@ def _speeds(robot: Robot) -> FloatArray:
 
 
 def _calm_seconds(tracking: Tracking) -> float:
-    """A fifth of the arm's size in a second, between 2 and 30 s for the whole path."""
-    return float(np.clip(5.0 * tracking.path.length / tracking.robot.size, 2.0, 30.0))
+    """An eighth of the arm's size in a second, between 3 and 30 s for the whole path."""
+    return float(np.clip(8.0 * tracking.path.length / tracking.robot.size, 3.0, 30.0))
