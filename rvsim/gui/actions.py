@@ -53,7 +53,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("metres", "&View", "Lengths in metres", "Instead of millimetres", "", True),
     ActionSpec("more_decimals", "&View", "More decimals", "One more decimal everywhere", "Ctrl+."),
     ActionSpec("fewer_decimals", "&View", "Fewer decimals", "One decimal less everywhere", "Ctrl+,"),
-    ActionSpec("animated", "&View", "Smooth camera moves", "The camera glides to a new view", "", True),
+    ActionSpec("animated", "&View", "Smooth moves", "Camera and arm glide to where they go", "", True),
     ActionSpec("home", "&Robot", "Home", "The arm's home pose", "Ctrl+H"),
     ActionSpec("zero", "&Robot", "Zero", "All joint variables 0", "Ctrl+Shift+H"),
     ActionSpec("random", "&Robot", "Random pose", "Any pose within the limits", "Ctrl+R"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QByteArray, Qt
-from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap
+from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
 
 from rvsim.experiment import Experiment
@@ -36,6 +36,7 @@ _TOOLBAR_TEXTS = {
     "look_stick": "Stick", "look_both": "Both", "dark": "◐ Dark",
 }  # fmt: skip
 _STATE_VERSION = 1
+_LEFT_WIDTH, _RIGHT_WIDTH = 284, 350
 
 
 class MainWindow(QMainWindow):
@@ -91,7 +92,7 @@ class MainWindow(QMainWindow):
         for dock in docks[1:]:
             self.tabifyDockWidget(docks[0], dock)
         docks[0].raise_()
-        self.resizeDocks([arm, docks[0]], [280, 360], Qt.Orientation.Horizontal)
+        self._sized_docks = [arm, docks[0]]
         panels = QMenu("Panels", self)
         for dock in (arm, *docks):
             panels.addAction(dock.toggleViewAction())
@@ -200,8 +201,14 @@ class MainWindow(QMainWindow):
         geometry, layout = self.preferences.window_state("geometry"), self.preferences.window_state("layout")
         if not geometry.isEmpty():
             self.restoreGeometry(geometry)
-        if not layout.isEmpty():
-            self.restoreState(layout, _STATE_VERSION)
+        self._laid_out = not layout.isEmpty() and self.restoreState(layout, _STATE_VERSION)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Give the docks their first widths: Qt heeds them only once the window has its size."""
+        super().showEvent(event)
+        if not self._laid_out:
+            self._laid_out = True
+            self.resizeDocks(self._sized_docks, [_LEFT_WIDTH, _RIGHT_WIDTH], Qt.Orientation.Horizontal)
 
     def window_layout(self) -> tuple[QByteArray, QByteArray]:
         """Geometry and dock layout, as they are now."""

@@ -64,6 +64,7 @@ class Session(QObject):
         self._left: dict[str, Experiment] = {}
         self._tracking: Tracking | None = None
         self._merge_stroke = 0
+        self.gliding = False  # while `changed` tells of a whole new pose: whoever draws may go there smoothly
         self.undo_stack = QUndoStack(self)
 
     @property
@@ -104,7 +105,11 @@ class Session(QObject):
             names = ", ".join(self.robot.joint_names[violation.joint] for violation in violations)
             self.say(f"Not moved: outside the limits of {names}. Switch “Ignore limits” on to go there.", "warning")
             return False
-        self.edit(text, self._experiment.at(q), merge=merge)
+        self.gliding = not merge
+        try:
+            self.edit(text, self._experiment.at(q), merge=merge)
+        finally:
+            self.gliding = False
         return True
 
     def show_moment(self, q: ArrayLike) -> None:

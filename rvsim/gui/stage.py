@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QEasingCurve, QObject, QVariantAnimation
 
 from rvsim.experiment import Experiment
 from rvsim.gui.motion_control import MotionControl
@@ -21,6 +21,7 @@ from rvsim.scene.paths import path_items, trail_items
 from rvsim.scene.primitives import Item
 
 _TRAIL_SAMPLES = 1500
+_GLIDE_MS = 280
 _SCENE_SETTINGS = {"theme", "look", "show_frames", "show_labels", "show_floor", "show_trail"}
 
 
@@ -40,6 +41,14 @@ class Stage(QObject):
         self._path: tuple[Item, ...] = ()
         self._trail = np.empty((0, 3))
         self._trail_times = np.empty(0)
+        self._from_q: FloatArray = session.q
+        self._shown_q: FloatArray = session.q
+        self._glide = QVariantAnimation(self)
+        self._glide.setStartValue(0.0)
+        self._glide.setEndValue(1.0)
+        self._glide.setDuration(_GLIDE_MS)
+        self._glide.setEasingCurve(QEasingCurve.Type.InOutCubic)
+        self._glide.valueChanged.connect(self._on_glide)
         session.changed.connect(self._on_changed)
         session.tracking_changed.connect(self._on_tracking)
         motion.loaded.connect(self._on_loaded)
@@ -53,6 +62,11 @@ class Stage(QObject):
 
     def show(self) -> None:
         """Compose the present moment and hand it to the view."""
+        self._glide.stop()
+        self._show_at(self._session.q)
+
+    def _show_at(self, q: FloatArray) -> None:
+        self._shown_q = q
         options = SceneOptions(
             look=self._preferences["look"],
             frames=self._preferences["show_frames"],
@@ -60,7 +74,7 @@ class Stage(QObject):
             floor=self._preferences["show_floor"],
         )
         extras = (*self._path, *self._trail_now())
-        scene = compose(self._session.robot, self._session.q, self.palette, options, extras)
+        scene = compose(self._session.robot, q, self.palette, options, extras)
         self._view.set_scene(replace(scene, bounds=self._with_path(scene.bounds)))
 
     def _with_path(self, bounds: FloatArray) -> FloatArray:
@@ -85,8 +99,21 @@ class Stage(QObject):
             self.show()
             if after.robot.name != before.robot.name:
                 self._view.fit()
+        elif after.q is not before.q and self._session.gliding and self._can_glide():
+            self._from_q = self._shown_q
+            self._glide.stop()
+            self._glide.start()
         elif after.q is not before.q:
             self.show()
+
+    def _can_glide(self) -> bool:
+        return bool(self._preferences["animated"]) and self._view.isVisible()
+
+    def _on_glide(self, share: float) -> None:
+        """The arm is there at once in every number; the eye is led there."""
+        goal = self._session.q
+        if self._glide.state() == QVariantAnimation.State.Running and len(goal) == len(self._from_q):
+            self._show_at(goal if share >= 1.0 else self._from_q + share * (goal - self._from_q))
 
     def _on_tracking(self, tracking: Tracking | None) -> None:
         self._path = self._path_items(tracking)

@@ -72,7 +72,8 @@ QToolButton {{ border: 1px solid transparent; border-radius: 5px; padding: 4px 8
 QToolButton:hover {{ background: {raised}; border-color: {border}; }}
 QToolButton:checked, QToolButton:pressed {{ background: {raised}; border-color: {accent}; }}
 QToolButton:focus {{ border-color: {accent}; }}
-QPushButton {{ background: {raised}; border: 1px solid {border}; border-radius: 5px; padding: 5px 8px; min-width: 40px; }}
+QPushButton {{ background: {raised}; border: 1px solid {border}; border-radius: 5px; padding: 5px 8px;
+    min-width: 40px; }}
 QPushButton:hover {{ border-color: {accent}; }}
 QPushButton:pressed, QPushButton:checked {{ background: {window}; border-color: {accent}; }}
 QPushButton:focus {{ border-color: {accent}; }}
