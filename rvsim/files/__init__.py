@@ -1,7 +1,7 @@
 """The disk: robot files, the user's folder."""
 
 from rvsim.files.robot_file import load_robot, robot_names, save_robot
-from rvsim.files.robot_text import robot_text
+from rvsim.files.robot_writer import robot_text
 from rvsim.files.user_folder import find_user_folder, user_folder, user_robot_files, user_robot_path
 
 __all__ = [

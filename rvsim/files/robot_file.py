@@ -11,7 +11,7 @@ from rvsim.errors import RobotDefinitionError, RobotFileError, UnknownRobotError
 from rvsim.files.atomic import write_atomically
 from rvsim.files.place import Place
 from rvsim.files.robot_format import ROBOT
-from rvsim.files.robot_text import robot_text
+from rvsim.files.robot_writer import robot_text
 from rvsim.files.toml_source import read_bytes, tables_of, text_of
 from rvsim.resources import resource
 from rvsim.robot import Robot
