@@ -1,0 +1,126 @@
+"""One cell of the DH table: what stands in it, what it is called, and what a typed text means there."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from rvsim.errors import ExpressionError
+from rvsim.expressions import evaluate
+from rvsim.gui.panels.matrices import subscript
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import Display, Kind, display, format_number, format_quantity, joint_kind, length_kind
+from rvsim.robot import Robot
+from rvsim.robot.edits import DHKey
+
+_LIMITS = {"lower": -math.inf, "upper": math.inf}
+_NONE = frozenset({"none", "no", "inf", "-inf", "\u2212inf", "+inf", "∞", "-∞", "\u2212∞", "+∞"})
+_TITLES = {"lower": "The lower limit", "upper": "The upper limit", "home": "The home"}
+_LETTERS = {"theta": "θ", "d": "d", "a": "a", "alpha": "α"}
+_LARGEST = 1e4  # [rad, m]: beyond this a number is a slip of the keyboard
+
+
+class Typed(NamedTuple):
+    """What a typed text means: an SI value, or a sentence that says why it cannot be taken."""
+
+    value: float = 0.0
+    problem: str = ""
+
+
+def cell_kind(robot: Robot, joint: int, key: DHKey) -> Kind:
+    """Whether the cell holds an angle or a length."""
+    if key in ("theta", "alpha"):
+        return "angle"
+    return length_kind(robot) if key in ("d", "a") else joint_kind(robot, joint)
+
+
+def cell_value(robot: Robot, joint: int, key: DHKey) -> float:
+    """The SI value in a cell."""
+    return float(getattr(robot.joints[joint], key))
+
+
+def cell_title(robot: Robot, joint: int, key: DHKey) -> str:
+    """What a sentence calls the cell: "a₂ of the shoulder", "The upper limit of the elbow"."""
+    shifted = robot.convention == "modified" and key in ("a", "alpha")
+    letter = _LETTERS.get(key, "") + subscript(joint if shifted else joint + 1)
+    return f"{_TITLES.get(key, letter)} of “{robot.joint_names[joint]}”"
+
+
+def cell_text(robot: Robot, joint: int, key: DHKey, preferences: Preferences) -> str:
+    """The text in a cell; where q is added to the value it says so: "q₁ + 90.0°"."""
+    value = cell_value(robot, joint, key)
+    if math.isinf(value):
+        return "none"
+    kind = cell_kind(robot, joint, key)
+    shown = display(kind, preferences)
+    lengths_have_their_unit_above = key in ("d", "a")
+    text = format_quantity(value, kind, preferences)
+    if lengths_have_their_unit_above:
+        text = format_number(value * shown.factor, shown.decimals)
+    return _with_q(joint, value, text) if key == _moving_key(robot, joint) else text
+
+
+def edit_text(robot: Robot, joint: int, key: DHKey, preferences: Preferences) -> str:
+    """The bare number that an edit begins with, in full precision."""
+    value = cell_value(robot, joint, key)
+    shown = display(cell_kind(robot, joint, key), preferences)
+    return "none" if math.isinf(value) else f"{value * shown.factor:.12g}"
+
+
+def typed(robot: Robot, joint: int, key: DHKey, text: str, preferences: Preferences) -> Typed:
+    """The SI value of a typed text in this cell, or why not."""
+    title = cell_title(robot, joint, key)
+    shown = display(cell_kind(robot, joint, key), preferences)
+    bare = text.strip().removesuffix(shown.suffix.strip()).strip()
+    if bare.lower() in _NONE:
+        return _no_limit(title, key)
+    try:
+        value = evaluate(bare) / shown.factor
+    except ExpressionError as problem:
+        return Typed(problem=f"{title} stays as it was: {problem}")
+    if text.strip() == edit_text(robot, joint, key, preferences):
+        value = cell_value(robot, joint, key)  # an untouched text keeps every digit
+    return Typed(value, _objection(robot, joint, key, value, shown))
+
+
+def stepped(robot: Robot, joint: int, key: DHKey, steps: float, preferences: Preferences) -> float | None:
+    """The SI value some arrow-key steps further, or None where there is no number to step from."""
+    value = cell_value(robot, joint, key)
+    shown = display(cell_kind(robot, joint, key), preferences)
+    # Rounded in the shown unit: 0.1 mm more is 250.1, not 250.10000000000002.
+    return None if math.isinf(value) else round(value * shown.factor + steps * shown.step, 12) / shown.factor
+
+
+def _moving_key(robot: Robot, joint: int) -> DHKey:
+    return "theta" if robot.joints[joint].revolute else "d"
+
+
+def _with_q(joint: int, value: float, text: str) -> str:
+    q = f"q{subscript(joint + 1)}"
+    if value == 0.0:
+        return q
+    return f"{q} \u2212 {text[1:]}" if text.startswith("\u2212") else f"{q} + {text}"
+
+
+def _no_limit(title: str, key: DHKey) -> Typed:
+    if key in _LIMITS:
+        return Typed(_LIMITS[key])
+    return Typed(problem=f"{title} must be a number: only a limit can be none.")
+
+
+def _objection(robot: Robot, joint: int, key: DHKey, value: float, shown: Display) -> str:
+    """Why a number cannot stand in this cell, or nothing."""
+    row, title = robot.joints[joint], cell_title(robot, joint, key)
+
+    def text(number: float) -> str:
+        return "none" if math.isinf(number) else format_number(number * shown.factor, shown.decimals) + shown.suffix
+
+    if abs(value) > _LARGEST:
+        return f"{title} stays as it was: {value * shown.factor:g}{shown.suffix} is too large for an arm."
+    if key == "lower" and value >= row.upper:
+        return f"{title} must lie below the upper limit, {text(row.upper)}; {text(value)} does not."
+    if key == "upper" and value <= row.lower:
+        return f"{title} must lie above the lower limit, {text(row.lower)}; {text(value)} does not."
+    if key == "home" and not row.lower <= value <= row.upper:
+        return f"{title} must lie within the limits, {text(row.lower)} … {text(row.upper)}; {text(value)} does not."
+    return ""
