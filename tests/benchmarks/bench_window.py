@@ -1,18 +1,16 @@
 """How fast the window is: value change to painted frame, first window, memory over many frames.
 
-Each figure comes from a process of its own, on a virtual X server where there is no screen. Wall-clock times: what a
+Each figure comes from a process of its own, on the screen that there is (`dev.py bench` lends a virtual one). Wall-clock times: what a
 person waits for. Absolute figures of one machine; read them beside the machine's name.
 """
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 
 FRAMES, MEMORY_FRAMES = 400, 10_000
 
@@ -25,48 +23,27 @@ def main() -> int:
         ("first window painted, warm, median of 5", "≤ 1.0 s", ("startup",)),
         ("resident memory after 10,000 frames", "≤ 280 MB, flat", ("memory",)),
     ]  # fmt: skip
-    with _display() as environment:
-        for title, target, mode in rows:
-            print(f"{title:78s} {target:16s} {_measured(mode, environment)}", flush=True)
+    for title, target, mode in rows:
+        print(f"{title:62s} {target:16s} {_measured(mode)}", flush=True)
     return 0
 
 
-def _measured(mode: tuple[str, ...], environment: dict[str, str]) -> str:
+def _measured(mode: tuple[str, ...]) -> str:
     if mode[0] == "startup":
-        times = sorted(json.loads(_child(mode, environment))["seconds"] for _ in range(6))[:5]
+        times = sorted(json.loads(_child(mode))["seconds"] for _ in range(6))[:5]
         return f"{times[2]:.2f} s  ({times[0]:.2f} … {times[-1]:.2f})"
-    found = json.loads(_child(mode, environment))
+    found = json.loads(_child(mode))
     if mode[0] == "memory":
         return f"{found['before']:.0f} MB after 500 frames, {found['after']:.0f} MB after {MEMORY_FRAMES}"
     return f"{found['p95']:.1f} ms  (median {found['median']:.1f}, {found['renderer']})"
 
 
-def _child(mode: tuple[str, ...], environment: dict[str, str]) -> str:
+def _child(mode: tuple[str, ...]) -> str:
     command = [sys.executable, __file__, *mode, str(time.time())]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise SystemExit(f"{mode} failed:\n{done.stderr}")
     return done.stdout.strip().splitlines()[-1]
-
-
-@contextlib.contextmanager
-def _display() -> Iterator[dict[str, str]]:
-    """The environment with a display: the present one, or a virtual X server for as long as this lasts."""
-    environment = {key: value for key, value in os.environ.items() if key != "QT_QPA_PLATFORM"}
-    if sys.platform != "linux" or environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY"):
-        yield environment
-        return
-    reader, writer = os.pipe()
-    arguments = ["Xvfb", "-displayfd", str(writer), "-screen", "0", "1366x900x24", "-nolisten", "tcp"]
-    server = subprocess.Popen(arguments, pass_fds=[writer], stderr=subprocess.DEVNULL)
-    os.close(writer)
-    try:
-        with os.fdopen(reader) as lines:
-            number = lines.readline().strip()
-        yield {**environment, "DISPLAY": f":{number}", "QT_QPA_PLATFORM": "xcb"}
-    finally:
-        server.terminate()
-        server.wait()
 
 
 # --- in the child ----------------------------------------------------------------------------------------------------

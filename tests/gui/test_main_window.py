@@ -1,0 +1,163 @@
+"""The window as a whole: every command does something, switches switch, units change what is shown, all is kept."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication, QImage
+from PySide6.QtWidgets import QApplication, QDockWidget, QMessageBox, QWidget
+from pytestqt.qtbot import QtBot
+
+from rvsim.files import load_robot, save_robot
+from rvsim.gui.actions import ACTIONS, shortcut_table
+from rvsim.gui.app import build_window
+from rvsim.gui.commands import SWITCHES
+from rvsim.gui.main_window import MainWindow
+from rvsim.gui.preferences import Preferences
+
+# These ask for a file or a name, or end the program: they are tested through what stands behind their dialogs.
+ASKING = {"open_robot", "save_robot", "save_picture", "save_csv", "save_pose", "quit"}
+
+
+@pytest.fixture
+def window(qtbot: QtBot) -> MainWindow:
+    made = build_window(Preferences())
+    made.preferences.set("animated", False)
+    qtbot.addWidget(made)
+    made.show()
+    return made
+
+
+def pixels(image: QImage) -> np.ndarray:
+    rgba = image.convertToFormat(QImage.Format.Format_RGBA8888)
+    return np.frombuffer(rgba.constBits(), np.uint8).reshape(rgba.height(), rgba.width(), 4)[..., :3].astype(int)
+
+
+@pytest.mark.parametrize("name", sorted({spec.name for spec in ACTIONS} - ASKING - set(SWITCHES)))
+def test_every_command_can_be_triggered(window: MainWindow, name: str) -> None:
+    window.tracker.track_line()
+    window.motion.pause()
+    window.actions_by_name[name].trigger()
+    for box in QApplication.topLevelWidgets():
+        if isinstance(box, QMessageBox):
+            assert box.text()
+            box.close()
+
+
+@pytest.mark.parametrize("name", SWITCHES)
+def test_every_switch_sets_its_preference(window: MainWindow, name: str) -> None:
+    action, switch = window.actions_by_name[name], SWITCHES[name]
+    action.setChecked(not action.isChecked())
+    if action.isChecked():
+        assert window.preferences[switch.preference] == switch.on
+    elif switch.off is not None:
+        assert window.preferences[switch.preference] == switch.off
+
+
+def test_no_two_commands_share_their_keys() -> None:
+    keys = [keys for _, _, keys in shortcut_table()]
+    assert sorted(set(keys)) == sorted(keys)
+
+
+def test_units_change_what_is_shown_and_nothing_else(window: MainWindow) -> None:
+    window.session.move_to(np.radians([30.0, 40.0, -50.0, 20.0, 60.0]), "Go")
+    before = window.session.q.copy()
+    box = window.joints.findChild(QWidget, "joint_value_1")
+    window.preferences.set("angle_unit", "rad")
+    assert box.text() == "0.524 rad"
+    assert box.value() == pytest.approx(np.pi / 6)
+    window.preferences.set("angle_unit", "deg")
+    assert box.text() == "30.0°"
+    np.testing.assert_array_equal(window.session.q, before)
+
+
+def test_light_and_dark_look_so(window: MainWindow) -> None:
+    brightness = {}
+    for theme in ("light", "dark"):
+        window.preferences.set("theme", theme)
+        brightness[theme] = pixels(window.grab().toImage()).mean()
+    assert brightness["light"] > 200
+    assert brightness["dark"] < 70
+
+
+@pytest.mark.parametrize("size", [(1024, 600), (1280, 720), (1366, 768), (3840, 2160)])
+def test_it_fits_screens_small_and_large(qtbot: QtBot, window: MainWindow, size: tuple[int, int]) -> None:
+    window.resize(*size)
+    qtbot.waitUntil(lambda: window.width() == size[0])
+    assert window.minimumSizeHint().width() <= 1024
+    assert window.minimumSizeHint().height() <= 600
+    assert window.scene_view.width() > 0.3 * size[0]
+
+
+def test_the_layout_is_remembered(qtbot: QtBot, tmp_path: Path) -> None:
+    file = tmp_path / "settings.ini"
+    first = build_window(Preferences(file))
+    qtbot.addWidget(first)
+    first.show()
+    first.findChild(QDockWidget, "points_dock").hide()
+    first.close()
+    second = build_window(Preferences(file))
+    qtbot.addWidget(second)
+    second.show()
+    assert second.findChild(QDockWidget, "points_dock").isHidden()
+    assert not second.findChild(QDockWidget, "path_dock").isHidden()
+
+
+def test_a_robot_file_is_opened_and_a_bad_one_explained(window: MainWindow, tmp_path: Path) -> None:
+    good, bad = tmp_path / "good.toml", tmp_path / "bad.toml"
+    save_robot(load_robot("rv-m1").renamed("mine", "Mine"), good)
+    window.commands.open_robot_file(good)
+    assert window.session.robot.name == "mine"
+    assert window.joints.robots.currentText() == "Mine"
+    bad.write_text(good.read_text(encoding="utf-8").replace("[[joint]]", "[[jiont]]"), encoding="utf-8")
+    window.commands.open_robot_file(bad)
+    box = next(box for box in QApplication.topLevelWidgets() if isinstance(box, QMessageBox))
+    assert "bad.toml" in box.informativeText()
+    assert "jiont" in box.informativeText()
+    assert window.session.robot.name == "mine"
+    box.close()
+
+
+def test_saved_poses_are_recalled_and_forgotten(window: MainWindow) -> None:
+    q = np.radians([30.0, 40.0, -50.0, 20.0, 60.0])
+    window.session.move_to(q, "Go")
+    window.joints.save_pose_as("ready")
+    window.joints.go_home()
+    window.joints.poses.setCurrentIndex(1)
+    window.joints.poses.activated.emit(1)
+    np.testing.assert_array_equal(window.session.q, q)
+    window.joints.forget_pose.click()
+    assert window.joints.poses.count() == 1
+
+
+def test_copied_numbers_are_exact(window: MainWindow) -> None:
+    window.session.move_to(np.radians([30.0, 40.0, -50.0, 20.0, 60.0]), "Go")
+    window.actions_by_name["copy_pose_numpy"].trigger()
+    found: dict[str, np.ndarray] = {}
+    exec(QGuiApplication.clipboard().text(), {"np": np}, found)
+    np.testing.assert_array_equal(found["q"], window.session.q)
+
+
+def test_everything_can_be_reached_with_the_keyboard(window: MainWindow) -> None:
+    reachable = Qt.FocusPolicy.TabFocus
+    for name in ("robot_selector", "joint_value_1", "joint_slider_5", "plot_button", "track_line_button", "play_button",
+                 "time_slider", "speed_selector", "trajectory_selector", "scene_view"):  # fmt: skip
+        widget = window.findChild(QWidget, name)
+        assert widget is not None, name
+        assert widget.focusPolicy().value & reachable.value, name
+        assert widget.accessibleName() or widget.text(), name
+
+
+def test_undo_walks_back_through_everything(window: MainWindow) -> None:
+    start = window.session.experiment
+    window.joints.go_random()
+    window.joints.ignore.toggle()
+    window.joints.save_pose_as("somewhere")
+    window.session.use_robot(window.library["ur5e"])
+    window.joints.go_random()
+    while window.session.undo_stack.canUndo():
+        window.session.undo_stack.undo()
+    assert window.session.experiment is start
