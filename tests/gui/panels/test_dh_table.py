@@ -43,9 +43,13 @@ def type_into(panel, qtbot, joint, key, text):
     line.selectAll()
     QGuiApplication.clipboard().setText(text)  # pasted: Qt's key simulation knows Latin letters only
     line.paste()
-    qtbot.keyClick(line, Qt.Key.Key_Return)
-    QApplication.processEvents()
+    press_return(qtbot, line)
     return line
+
+
+def press_return(qtbot, line):
+    qtbot.keyClick(line, Qt.Key.Key_Return)
+    QApplication.processEvents()  # Qt closes the editor only then
 
 
 def message(panel):
@@ -151,7 +155,7 @@ def test_stepping_with_the_keys_is_live_and_one_undo_step(panel, qtbot):
         qtbot.keyClick(line, key, modifier)
     assert session.robot.joints[SHOULDER].a == pytest.approx(0.2609)
     assert line.text() == "260.9"
-    qtbot.keyClick(line, Qt.Key.Key_Return)
+    press_return(qtbot, line)
     assert session.undo_stack.count() == 1
     session.undo_stack.undo()
     assert session.robot.name == "rv-m1"
@@ -166,8 +170,7 @@ def test_the_wheel_steps_as_well(panel):
 
 def test_an_edit_that_is_opened_and_left_changes_nothing(panel, qtbot):
     robot = panel._session.robot
-    line = editor(panel, 3, "alpha")
-    qtbot.keyClick(line, Qt.Key.Key_Return)
+    press_return(qtbot, editor(panel, 3, "alpha"))
     line = editor(panel, SHOULDER, "a")
     qtbot.keyClicks(line, "999")
     qtbot.keyClick(line, Qt.Key.Key_Escape)
