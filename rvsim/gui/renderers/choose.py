@@ -91,6 +91,10 @@ def _make_painter(parent: QWidget) -> Renderer:
     return PainterRenderer(parent)
 
 
+def _broken(reason: object) -> str:
+    return f"The painter draws: OpenGL failed ({reason})."
+
+
 class ResilientRenderer(QObject):
     """Draws with OpenGL until that breaks, then with the painter in the same place; the arm is seen either way.
 
@@ -114,6 +118,13 @@ class ResilientRenderer(QObject):
         self._renderer = self._start(samples)
 
     def _start(self, samples: int) -> Renderer:
+        try:
+            return self._show(self._make_opengl(samples))
+        except Exception as error:  # a library that is missing, a driver that refuses: the painter needs neither
+            self.changed.emit(_broken(error))
+            return self._show(_make_painter(self._place))
+
+    def _make_opengl(self, samples: int) -> Renderer:
         # Imported here: whoever draws with the painter never waits for OpenGL's libraries.
         from rvsim.gui.renderers.opengl import OpenGLRenderer
 
@@ -121,14 +132,14 @@ class ResilientRenderer(QObject):
         renderer.failed.connect(self._note)
         # Queued: a widget must not be replaced while it paints.
         renderer.failed.connect(self._fall_back, Qt.ConnectionType.QueuedConnection)
-        self._show(renderer)
         return renderer
 
-    def _show(self, renderer: Renderer) -> None:
+    def _show(self, renderer: Renderer) -> Renderer:
         self.name, self.description = renderer.name, renderer.description
         layout = self._place.layout()
         if layout is not None:
             layout.addWidget(renderer.widget())
+        return renderer
 
     def _note(self, reason: str) -> None:
         self._failure = reason
@@ -138,13 +149,12 @@ class ResilientRenderer(QObject):
             return
         reason, self._failure = self._failure, ""
         broken = self._renderer.widget()
-        self._renderer = _make_painter(self._place)
-        self._show(self._renderer)
+        self._renderer = self._show(_make_painter(self._place))
         self._renderer.widget().show()
         broken.hide()
         broken.deleteLater()
         self._repeat()
-        self.changed.emit(f"The painter draws: OpenGL failed ({reason}).")
+        self.changed.emit(_broken(reason))
 
     def _repeat(self) -> None:
         if self._camera is not None:
@@ -170,6 +180,8 @@ class ResilientRenderer(QObject):
 
     def image(self) -> QImage:
         """The picture as it would be painted now."""
+        # A place that has never been shown has not yet given its size to what is in it.
+        self._renderer.widget().setGeometry(self._place.rect())
         picture = self._renderer.image()
         if self._failure:
             self._fall_back()

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QWidget
 
 from rvsim.errors import RvsimError
 from rvsim.gui.renderers.opengl_binding import GL, GLViewWidget
-from rvsim.gui.renderers.opengl_bodies import BodyLayer, GhostLayer, PlateLayer, ShadowLayer
+from rvsim.gui.renderers.opengl_bodies import BodyLayer, GhostLayer, PlateLayer, ShadowLayer, unit_bodies
 from rvsim.gui.renderers.opengl_context import probe_opengl
 from rvsim.gui.renderers.opengl_frame import Frame, to_qt
 from rvsim.gui.renderers.opengl_labels import LabelLayer
@@ -62,12 +62,13 @@ class _Layers(NamedTuple):
 
 
 def _new_layers() -> _Layers:
+    units = unit_bodies()
     return _Layers(
-        PlateLayer(),
+        PlateLayer(units),
         StrokeLayer(use_depth=False),
-        ShadowLayer(),
-        GhostLayer(),
-        BodyLayer(),
+        ShadowLayer(units),
+        GhostLayer(units),
+        BodyLayer(units),
         StrokeLayer(),
         StrokeLayer(on_top=True),
         LabelLayer(),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -44,17 +43,17 @@ def _place(item: Body) -> _Placed | None:
     return _Placed(item, shape, to_qt(matrix), (float(sizes[0]), float(sizes[1]), float(sizes[2])), stretch)
 
 
-@cache
-def _bodies() -> dict[str, Vertices]:
-    # Shared by all views of the program: their contexts share what lies in graphics memory.
+def unit_bodies() -> dict[str, Vertices]:
+    """What all bodies of a view are stretched from."""
     return {"capsule": Vertices(capsule_body()), "box": Vertices(box_body())}
 
 
 class BodyLayer(GLGraphicsItem):  # type: ignore[misc]
-    """Capsules and boxes, all drawn from two shared unit bodies."""
+    """Capsules and boxes, all drawn from the unit bodies of their view."""
 
-    def __init__(self) -> None:
+    def __init__(self, units: dict[str, Vertices]) -> None:
         super().__init__()
+        self._units = units
         self._placed: dict[str, _Placed] = {}
         self._pipeline: Pipeline | None = None
 
@@ -87,23 +86,26 @@ class BodyLayer(GLGraphicsItem):  # type: ignore[misc]
         use_depth(gl, True)
         gl.glDisable(GL.GL_BLEND)
         gl.glEnable(GL.GL_CULL_FACE)
-        _draw_bodies(self._placed.values(), frame, pipeline)
+        self._draw_bodies(self._placed.values(), frame, pipeline)
         gl.glDisable(GL.GL_CULL_FACE)
 
+    def _draw_bodies(self, bodies: Iterable[_Placed], frame: Frame, pipeline: Pipeline) -> None:
+        for shape, vertices in self._units.items():
+            alike = [body for body in bodies if body.shape == shape]
+            if alike:
+                pipeline.read_from(vertices)
+                pipeline.set_number("gloss", 1.0 if shape == "capsule" else 0.3)
+                pipeline.set_number("edges", 0.0 if shape == "capsule" else 0.14)
+            for body in alike:
+                pipeline.set_color("color", body.item.color)
+                _stretch(pipeline, body, frame.view, 1.0)
+                frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)
 
-def _draw_bodies(bodies: Iterable[_Placed], frame: Frame, pipeline: Pipeline) -> None:
-    for shape, vertices in _bodies().items():
-        alike = [body for body in bodies if body.shape == shape]
-        if alike:
-            pipeline.read_from(vertices)
-            pipeline.set_number("gloss", 1.0 if shape == "capsule" else 0.3)
-            pipeline.set_number("edges", 0.0 if shape == "capsule" else 0.14)
-        for body in alike:
-            pipeline.set_matrix("model_view", frame.view * body.place)
-            pipeline.set_vector("scale", *body.scale)
-            pipeline.set_number("stretch", body.stretch)
-            pipeline.set_color("color", body.item.color)
-            frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)
+
+def _stretch(pipeline: Pipeline, body: _Placed, view: QMatrix4x4, wider: float) -> None:
+    pipeline.set_matrix("model_view", view * body.place)
+    pipeline.set_vector("scale", *(wider * edge for edge in body.scale))
+    pipeline.set_number("stretch", body.stretch)
 
 
 class PlateLayer(BodyLayer):
@@ -114,7 +116,7 @@ class PlateLayer(BodyLayer):
         use_depth(frame.functions, False)
         frame.functions.glDisable(GL.GL_BLEND)
         pipeline.set_number("lit", 0.0)
-        _draw_bodies(self._placed.values(), frame, pipeline)
+        self._draw_bodies(self._placed.values(), frame, pipeline)
 
 
 class GhostLayer(BodyLayer):
@@ -129,9 +131,9 @@ class GhostLayer(BodyLayer):
         for alpha in sorted({body.item.color.alpha for body in self._placed.values()}):
             pane = [body for body in self._placed.values() if body.item.color.alpha == alpha]
             gl.glColorMask(False, False, False, False)
-            _draw_bodies(pane, frame, pipeline)
+            self._draw_bodies(pane, frame, pipeline)
             gl.glColorMask(True, True, True, True)
-            _draw_bodies(pane, frame, pipeline)
+            self._draw_bodies(pane, frame, pipeline)
             gl.glClear(GL.GL_DEPTH_BUFFER_BIT)
         gl.glDisable(GL.GL_CULL_FACE)
 
@@ -139,8 +141,8 @@ class GhostLayer(BodyLayer):
 class ShadowLayer(BodyLayer):
     """The soft shadow of the bodies on the floor, as if the light stood right above."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, units: dict[str, Vertices]) -> None:
+        super().__init__(units)
         self._color = Color(0.0, 0.0, 0.0)
 
     def show_shadow(self, items: Iterable[Body], color: Color) -> None:
@@ -165,11 +167,9 @@ class ShadowLayer(BodyLayer):
 
     def _draw_flat(self, frame: Frame, pipeline: Pipeline, width: float) -> None:
         on_floor = frame.view * _ONTO_FLOOR
-        for body in self._placed.values():
-            vertices = _bodies()[body.shape]
-            wider = width if body.shape == "capsule" else 0.75 + 0.25 * width
+        for shape, vertices in self._units.items():
             pipeline.read_from(vertices)
-            pipeline.set_matrix("model_view", on_floor * body.place)
-            pipeline.set_vector("scale", *(wider * edge for edge in body.scale))
-            pipeline.set_number("stretch", body.stretch)
-            frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)
+            wider = width if shape == "capsule" else 0.75 + 0.25 * width
+            for body in (body for body in self._placed.values() if body.shape == shape):
+                _stretch(pipeline, body, on_floor, wider)
+                frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)
