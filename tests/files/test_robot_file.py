@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import runpy
 import string
 from dataclasses import replace
@@ -19,7 +20,9 @@ from numpy.testing import assert_allclose
 from rvsim import load_robot, robot_names
 from rvsim.errors import RobotDefinitionError, RobotFileError, UnknownRobotError
 from rvsim.files import robot_text, save_robot
+from rvsim.files.kinds import Items, Table
 from rvsim.files.robot_file import robot_from_bytes
+from rvsim.files.robot_format import ROBOT
 from rvsim.resources import resource
 from rvsim.robot import BoxShape, CapsuleShape, Datum, Gripper, Joint, LinkMass, Robot, Tool
 from rvsim.spatial import rotation_from_rpy, transform
@@ -314,3 +317,26 @@ def test_a_spoilt_file_is_a_sound_arm_or_one_clear_error(seed: int) -> None:
 def test_any_bytes_are_refused_in_one_way(data: bytes) -> None:
     with pytest.raises(RobotFileError):
         robot_from_bytes(data, "mine.toml")
+
+
+# --- the help page -------------------------------------------------------------------------------------------------
+
+HELP = resource("help", "robot-file.md").read_text(encoding="utf-8")
+
+
+def test_the_example_of_the_help_page_is_an_arm() -> None:
+    example = HELP.partition("```toml\n")[2].partition("```")[0]
+    robot = robot_from_bytes(example.encode(), "my-first.toml")
+    assert (robot.name, robot.dof, robot.size) == ("my-first", 2, pytest.approx(0.55))
+
+
+def test_the_help_page_explains_every_key() -> None:
+    missing = {name for name in key_names(ROBOT) if not re.search(rf"\b{name}\b", HELP)}
+    assert missing == set()
+
+
+def key_names(kind: Any) -> set[str]:
+    if isinstance(kind, Items):
+        return key_names(kind.kind)
+    keys = kind.keys if isinstance(kind, Table) else ()
+    return {name for key in keys for name in {key.name} | key_names(key.kind)}

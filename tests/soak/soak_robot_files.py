@@ -38,6 +38,7 @@ SCRAPS = (
     *('"""', "'''", "[" * 3000, "]", "[[joint]]", "[base]", "2024-13-99", "+", "..", "#", "=", ","),
     *("joint", "alpha", "alhpa", "home = 3", "a.b.c = 1", "\x00", "\ufeff", "é", "\r\n", "\t"),
 )
+VALUE = re.compile(r"= (\[[^\]]*\]|\"[^\"]*\"|[^\s,}]+)")
 TOKEN = re.compile(r"[+-]?[\w.]+|\"[^\"\n]*\"|[^\s\w]")
 
 
@@ -115,7 +116,10 @@ def _by_line(change: Callable[[list[str], int, random.Random], None]) -> Callabl
 
 def _other_value(lines: list[str], index: int, dice: random.Random) -> None:
     index = dice.choice([i for i, line in enumerate(lines) if "=" in line] or [index])
-    lines[index] = lines[index].partition("=")[0] + "= " + dice.choice(VALUES)
+    values = list(VALUE.finditer(lines[index]))
+    if values:
+        value = dice.choice(values)
+        lines[index] = lines[index][: value.start(1)] + dice.choice(VALUES) + lines[index][value.end(1) :]
 
 
 def _other_key(lines: list[str], index: int, dice: random.Random) -> None:
