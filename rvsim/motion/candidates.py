@@ -7,7 +7,9 @@ from itertools import product
 import numpy as np
 
 from rvsim.kinematics.forward import forward_kinematics
-from rvsim.kinematics.inverse import free_pitch_batch, inverse_kinematics_batch
+from rvsim.kinematics.inverse import free_pitch_batch, inverse_kinematics_batch, inverse_tasks
+from rvsim.kinematics.inverse.families import closed_form
+from rvsim.kinematics.inverse.task import candidates
 from rvsim.kinematics.jacobian import jacobian
 from rvsim.motion.path import Path
 from rvsim.motion.turns import JointRange, existing
@@ -39,12 +41,15 @@ def branches_on(robot: Robot, path: Path, near: FloatArray) -> FloatArray:
 
 
 def _free(robot: Robot, points: FloatArray, near: FloatArray) -> FloatArray:
-    """(m, s, n) with sampled orientations: every pitch (5R), directions all around (6R), else as it is in `near`."""
+    """(m, s, n): every pitch (5R), directions all around (6R), the place alone or as it is in `near` (4 joints)."""
     if robot.dof == 5:
         pitches = np.arange(-np.pi, np.pi, _PITCH_STEP)
         q = free_pitch_batch(robot, points, pitches, float(near[-1]))
     elif robot.dof == 6:
         q = inverse_kinematics_batch(robot, _all_around(robot, points, near).reshape(-1, 4, 4))
+    elif "position" in inverse_tasks(robot):
+        form = closed_form(robot)
+        q = np.array([candidates(form, "position", T, near).q for T in _as_it_is(robot, points, near)])
     else:
         q = inverse_kinematics_batch(robot, _as_it_is(robot, points, near))
     return q.reshape(len(points), -1, robot.dof)

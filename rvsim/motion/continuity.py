@@ -1,7 +1,8 @@
 """Whether an arm can go from one pose to the next along the path: the joint-space midpoint must stay on the way.
 
 A step threshold cannot tell a jump from a fast motion near a singularity. The midpoint can: between two poses of one
-branch it lies beside the segment, nearer by the square the finer the path; between two branches it stays far off.
+branch it lies beside the tool's straight way, nearer by the square the finer the path; between two branches it stays
+far off. Where it is neither near nor far, the midpoint is put on the way and both halves are asked again.
 """
 
 from __future__ import annotations
@@ -15,33 +16,54 @@ from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial.rotation_vectors import rotation_from_vector, rotation_vector
 
-# How far the midpoint may lie off the segment, in its lengths; how far its orientation off the mean one [rad].
-_SIDEWAYS = 0.25
-_TILT = 0.25
+# How far the midpoint may lie off the way, in its lengths, and how far from where no halving will help.
+_BESIDE, _FAR = 0.05, 0.75
+# The same for the tool's orientation [rad].
+_TILT, _FAR_TILT = 0.1, 1.5
 # What counts as the same place, in sizes of the arm.
 _SAME_PLACE = 1e-7
-_DEPTH = 9
-_NEWTON_STEPS = 25
+_HALVINGS = 8
+# Newton's method: its steps, the longest of them [rad, sizes], how near is near enough, in lengths of the way.
+_STEPS, _LONGEST_STEP, _NEAR_ENOUGH = 20, 0.5, 1e-3
+# The place comes first: an error of orientation counts as so many sizes a radian.
+_ORIENTATION_WEIGHT = 1e-3
+
+Mask = NDArray[np.bool_]
 
 
-def beside_segment(robot: Robot, q0: FloatArray, q1: FloatArray, with_rotation: bool) -> NDArray[np.bool_]:
-    """(k,) whether the midpoints of poses (k, n) and (k, n) keep to the tool's straight way from one to the other."""
-    T0, T1 = forward_kinematics(robot, q0), forward_kinematics(robot, q1)
-    return keeps_to_segment(robot, T0, forward_kinematics(robot, 0.5 * (q0 + q1)), T1, with_rotation)
+def continuous(robot: Robot, q0: FloatArray, q1: FloatArray, with_rotation: bool) -> Mask:
+    """(k,) whether the arm can go from poses q0 (k, n) to q1 (k, n) on the tool's straight way, within one branch."""
+    result = np.ones(len(q0), dtype=bool)
+    owner = np.arange(len(q0))
+    for halving in range(_HALVINGS + 1):
+        start, middle, end = forward_kinematics(robot, np.stack([q0, 0.5 * (q0 + q1), q1]))
+        near, far = beside(robot, start, middle, end, with_rotation)
+        result[owner[far]] = False
+        doubtful = ~near & result[owner]
+        q0, q1, owner = q0[doubtful], q1[doubtful], owner[doubtful]
+        if not len(owner) or halving == _HALVINGS:
+            break
+        between, found = _onto_the_way(robot, q0, q1, with_rotation)
+        result[owner[~found]] = False
+        q0, q1, owner = np.concatenate([q0, between]), np.concatenate([between, q1]), np.tile(owner, 2)
+    result[owner] = False
+    return result
 
 
-def keeps_to_segment(
+def beside(
     robot: Robot, start: FloatArray, middle: FloatArray, end: FloatArray, with_rotation: bool
-) -> NDArray[np.bool_]:
-    """(k,) whether the tool in `middle` is on the straight way from `start` to `end`, poses (k, 4, 4) each."""
+) -> tuple[Mask, Mask]:
+    """(k,) whether the tool in `middle` is near the straight way from `start` to `end`, poses (k, 4, 4), and if far."""
     chord, way = end[:, :3, 3] - start[:, :3, 3], middle[:, :3, 3] - start[:, :3, 3]
     squared = np.maximum(np.sum(chord**2, axis=-1), 1e-300)
     along = np.clip(np.sum(way * chord, axis=-1) / squared, 0.0, 1.0)
-    sideways = np.linalg.norm(way - along[:, None] * chord, axis=-1)
-    near = sideways <= _SIDEWAYS * np.sqrt(squared) + _SAME_PLACE * robot.size
+    sideways, length = np.linalg.norm(way - along[:, None] * chord, axis=-1), np.sqrt(squared)
+    same = _SAME_PLACE * robot.size
+    near, far = sideways <= _BESIDE * length + same, sideways > _FAR * length + same
     if with_rotation:
-        near &= _tilt(start[:, :3, :3], middle[:, :3, :3], end[:, :3, :3]) <= _TILT
-    return np.asarray(near)
+        tilt = _tilt(start[:, :3, :3], middle[:, :3, :3], end[:, :3, :3])
+        near, far = near & (tilt <= _TILT), far | (tilt > _FAR_TILT)
+    return np.asarray(near), np.asarray(far)
 
 
 def _tilt(start: FloatArray, middle: FloatArray, end: FloatArray) -> FloatArray:
@@ -51,32 +73,38 @@ def _tilt(start: FloatArray, middle: FloatArray, end: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.norm(halfway, axis=-1))
 
 
-def is_continuous(robot: Robot, q0: FloatArray, q1: FloatArray, with_rotation: bool, depth: int = _DEPTH) -> bool:
-    """Whether the arm can go from q0 (n,) to q1 (n,) along the tool's straight way without changing its branch.
-
-    Where the midpoint lies too far off it is put on the way (Newton's method) and both halves are asked again: on one
-    branch that soon agrees, across two it never does.
-    """
-    if bool(beside_segment(robot, q0[None], q1[None], with_rotation)[0]):
-        return True
-    middle = _onto_the_way(robot, q0, q1, with_rotation) if depth else None
-    if middle is None:
-        return False
-    halves = ((q0, middle), (middle, q1))
-    return all(is_continuous(robot, before, after, with_rotation, depth - 1) for before, after in halves)
-
-
-def _onto_the_way(robot: Robot, q0: FloatArray, q1: FloatArray, with_rotation: bool) -> FloatArray | None:
-    """The pose near the joint midpoint whose tool is halfway between those of q0 and q1; None if none is found."""
-    T0, T1 = forward_kinematics(robot, np.stack([q0, q1]))
-    turn = rotation_vector(T0[:3, :3].T @ T1[:3, :3])
-    place, rotation = 0.5 * (T0[:3, 3] + T1[:3, 3]), T0[:3, :3] @ rotation_from_vector(0.5 * turn)
+def _onto_the_way(robot: Robot, q0: FloatArray, q1: FloatArray, with_rotation: bool) -> tuple[FloatArray, Mask]:
+    """Poses (k, n) near the joint midpoints whose tool is halfway between those of q0 and q1, and which were found."""
+    T0, T1 = forward_kinematics(robot, q0), forward_kinematics(robot, q1)
+    halfway = _halfway(T0, T1)
+    enough = _NEAR_ENOUGH * np.linalg.norm(T1[:, :3, 3] - T0[:, :3, 3], axis=1) + _SAME_PLACE * robot.size
     q = 0.5 * (q0 + q1)
-    for _ in range(_NEWTON_STEPS):
-        T, J = forward_kinematics(robot, q), jacobian(robot, q)
-        error = np.concatenate([place - T[:3, 3], rotation_vector(rotation @ T[:3, :3].T)])
-        if np.linalg.norm(error[:3]) < _SAME_PLACE * robot.size:
-            return np.asarray(q)
-        rows = slice(None) if with_rotation else slice(3)
-        q = q + np.linalg.lstsq(J[rows], error[rows], rcond=1e-6)[0]
-    return None
+    for _ in range(_STEPS):
+        T = forward_kinematics(robot, q)
+        error = halfway[:, :3, 3] - T[:, :3, 3]
+        missing = np.linalg.norm(error, axis=1) > enough
+        if not missing.any():
+            break
+        q[missing] += _newton_step(robot, q[missing], T[missing], halfway[missing], with_rotation)
+    return q, ~missing
+
+
+def _halfway(T0: FloatArray, T1: FloatArray) -> FloatArray:
+    """(k, 4, 4) halfway between two poses each: the middle of the places, half of the turn."""
+    T = 0.5 * (T0 + T1)
+    turn = rotation_vector(np.swapaxes(T0[:, :3, :3], -1, -2) @ T1[:, :3, :3])
+    T[:, :3, :3] = T0[:, :3, :3] @ rotation_from_vector(0.5 * turn)
+    return np.asarray(T)
+
+
+def _newton_step(robot: Robot, q: FloatArray, T: FloatArray, wanted: FloatArray, with_rotation: bool) -> FloatArray:
+    """(k, n) the step towards `wanted` (k, 4, 4), shortened where it is long."""
+    J, error = jacobian(robot, q), wanted[:, :3, 3] - T[:, :3, 3]
+    if with_rotation:
+        weight = _ORIENTATION_WEIGHT * robot.size
+        J[:, 3:] *= weight
+        turn = rotation_vector(wanted[:, :3, :3] @ np.swapaxes(T[:, :3, :3], -1, -2))
+        error = np.concatenate([error, weight * turn], axis=1)
+    step = (np.linalg.pinv(J[:, : error.shape[1]], rcond=1e-6) @ error[:, :, None])[:, :, 0]
+    longest = np.max(np.abs(step) / np.where(robot.is_revolute, 1.0, robot.size), axis=1, keepdims=True)
+    return np.asarray(step * np.minimum(1.0, _LONGEST_STEP / np.maximum(longest, 1e-300)))

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rvsim.kinematics.forward import forward_kinematics
-from rvsim.motion.continuity import keeps_to_segment
+from rvsim.motion.continuity import beside, continuous
 from rvsim.motion.turns import JointRange, existing, nearest_turn, whole_turns
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -20,6 +20,8 @@ from rvsim.robot.arrays import FloatArray
 # A jump costs more than any way in joint space.
 _JUMP = 1e6
 _BLOCK = 100_000
+# Of so few branches each counts; of many sampled ones those with doubtful steps can be spared.
+_FEW = 16
 
 
 @dataclass(eq=False)
@@ -96,13 +98,25 @@ def _steps(
         here, there = q[first:last, :, None], q[first + 1 : last + 1, None, :]
         step = nearest_turn(there - here, joints.periodic)
         asked = existing(step) & adjacent[first:last, None, None]
-        point, branch, next_branch = np.nonzero(asked)
-        middle = forward_kinematics(robot, (here + 0.5 * step)[asked])
-        ends = T[first + point, branch], T[first + 1 + point, next_branch]
         kept = np.zeros(asked.shape, dtype=bool)
-        kept[asked] = keeps_to_segment(robot, ends[0], middle, ends[1], with_rotation)
+        kept[asked] = _kept(robot, T[first : last + 1], asked, here, step, with_rotation)
         steps += list(zip(step, kept, strict=True))
     return steps
+
+
+def _kept(
+    robot: Robot, T: FloatArray, asked: NDArray[np.bool_], here: FloatArray, step: FloatArray, with_rotation: bool
+) -> NDArray[np.bool_]:
+    """(k,) whether each of the steps asked for keeps to the path; T (m, s, 4, 4) of all points and branches."""
+    point, branch, next_branch = np.nonzero(asked)
+    way = step[asked]
+    start = np.broadcast_to(here, step.shape)[asked]
+    middle = forward_kinematics(robot, start + 0.5 * way)
+    near, far = beside(robot, T[point, branch], middle, T[point + 1, next_branch], with_rotation)
+    doubtful = ~near & ~far
+    if asked.shape[1] <= _FEW:
+        near[doubtful] = continuous(robot, start[doubtful], start[doubtful] + way[doubtful], with_rotation)
+    return near
 
 
 def _extended(

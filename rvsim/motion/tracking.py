@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rvsim.kinematics.forward import forward_kinematics
 from rvsim.motion.candidates import branches_on, thinned
-from rvsim.motion.continuity import beside_segment, is_continuous
+from rvsim.motion.continuity import continuous
 from rvsim.motion.path import Path
 from rvsim.motion.reasons import limit_culprit
 from rvsim.motion.sequence import best_sequence
@@ -41,7 +41,8 @@ def track(robot: Robot, path: Path, *, near: ArrayLike | None = None, ignore_lim
     joints = JointRange.of(robot, ignore_limits)
     branches = branches_on(robot, path, present)
     usable = thinned(_within(branches, present, joints), present, joints)
-    q = best_sequence(robot, usable, present, joints, path.rotations is not None)
+    with_rotation = path.rotations is not None and robot.dof > 3
+    q = best_sequence(robot, usable, present, joints, with_rotation)
     elapsed = perf_counter() - start
     return Tracking(
         robot,
@@ -49,7 +50,7 @@ def track(robot: Robot, path: Path, *, near: ArrayLike | None = None, ignore_lim
         q,
         unreached=_reasons(robot, path, branches, q, present),
         actual=_tool_points(robot, q),
-        jumps=find_jumps(robot, q, path.rotations is not None),
+        jumps=find_jumps(robot, q, with_rotation),
         solve_seconds=elapsed,
         ignore_limits=ignore_limits,
     )
@@ -58,10 +59,7 @@ def track(robot: Robot, path: Path, *, near: ArrayLike | None = None, ignore_lim
 def find_jumps(robot: Robot, q: FloatArray, with_rotation: bool) -> tuple[int, ...]:
     """The indices of poses (m, n) that follow the pose before only by leaving the tool's straight way."""
     pairs = np.flatnonzero(existing(q[1:] + q[:-1]))
-    if not len(pairs):
-        return ()
-    doubtful = pairs[~beside_segment(robot, q[pairs], q[pairs + 1], with_rotation)]
-    return tuple(int(i) + 1 for i in doubtful if not is_continuous(robot, q[i], q[i + 1], with_rotation))
+    return tuple(int(i) + 1 for i in pairs[~continuous(robot, q[pairs], q[pairs + 1], with_rotation)])
 
 
 def _within(branches: FloatArray, near: FloatArray, joints: JointRange) -> FloatArray:
