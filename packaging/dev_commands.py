@@ -57,6 +57,8 @@ def _track_the_line(python: str) -> int:
     out = ROOT / "out"
     out.mkdir(exist_ok=True)
     table, picture = out / "rv-m1-line.csv", out / "rv-m1-line.png"
+    for old in (table, picture):
+        old.unlink(missing_ok=True)  # or a failure would present the results of last time
     job = ["track", "rv-m1", "--path", "line", "--csv", str(table), "--png", str(picture)]
     code = subprocess.call([python, "-m", "rvsim", *job], env=dev_environment.child_environment(**_OFF_SCREEN))
     for name, path in (("picture", picture), ("table", table)):

@@ -120,7 +120,8 @@ def ensure(kind: Kind = APP, extras: tuple[str, ...] = ()) -> Path:
 def _wanted(kind: Kind, extras: tuple[str, ...]) -> Stamp:
     pyproject = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     constraints = "".join(path.read_text(encoding="utf-8") for path in _constraints(kind))
-    base = f"{sys.version} {platform.machine()} {sys.base_prefix}"
+    # Not sys.version: its build date changes with every repair that a Linux distribution makes.
+    base = f"{platform.python_implementation()} {platform.python_version()} {platform.machine()} {sys.base_prefix}"
     return Stamp(str(ROOT / kind.folder), base, fingerprint(pyproject, constraints, kind.peers), extras)
 
 
