@@ -1,0 +1,267 @@
+"""The Tool panel: where the tool is and how it is turned, in the notation one likes, and editable."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from rvsim.gui.matrix_view import MatrixView
+from rvsim.gui.orientations import MATRIX, MATRIX_CONVENTION, NOTATIONS, Notation, notation_titles
+from rvsim.gui.panels.copying import CopyButton
+from rvsim.gui.panels.shown import NUMBER_SETTINGS, ReadOutPanel
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import Kind, display, format_scientific, length_kind
+from rvsim.gui.quantity_box import QuantityBox
+from rvsim.gui.session import Session
+from rvsim.gui.theme import set_role
+from rvsim.gui.tool_edits import ToolEdit, moved_tool, turned_tool
+from rvsim.gui.widgets import column_of, combo, scrolled, select
+from rvsim.kinematics import forward_difference, forward_kinematics
+from rvsim.lab.texts import NamedValue, matrix_latex, matrix_numpy, matrix_text, values_latex, values_numpy, values_text
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+_AXES = ("x", "y", "z")
+_SECOND_WAY = (
+    "The same pose, computed a second and independent way: not by the DH matrices, but as a product of matrix "
+    "exponentials of the joints' screws, derived from the zero pose. The two differ by rounding alone: distance of the "
+    "origins, and largest difference in a rotation entry.\n\n"
+    "Source 000 makes this test as well (Program 6, against a toolbox) and reports an error of 0. Its number is really "
+    "1.018 dm: the DH offsets of joints 4 and 5 are in one of its two paths only."
+)
+_UNIT_NAMES = {"°": "deg", "rad": "rad", "mm": "mm", "m": "m", "unit": "unit", "": ""}
+
+
+class NumberRow(QWidget):
+    """Boxes side by side under their names."""
+
+    def __init__(self, prefix: str, names: tuple[str, ...], kinds: tuple[Kind, ...], preferences: Preferences) -> None:
+        super().__init__()
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(2)
+        self.boxes: list[QuantityBox] = []
+        for column, (name, kind) in enumerate(zip(names, kinds, strict=True)):
+            box = QuantityBox(kind, preferences, f"Tool {name}")
+            box.setObjectName(f"{prefix}_{name.replace(' ', '_')}")
+            box.setMinimumWidth(64)
+            box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+            label = QLabel(name)
+            label.setBuddy(box)
+            set_role(label, role="muted")
+            grid.addWidget(label, 0, column, Qt.AlignmentFlag.AlignRight)
+            grid.addWidget(box, 1, column)
+            grid.setColumnStretch(column, 1)
+            self.boxes.append(box)
+
+    def show_values(self, values: FloatArray) -> None:
+        """Show SI values, silently."""
+        for box, value in zip(self.boxes, values, strict=True):
+            box.set_quantity(float(value))
+
+
+class ToolPanel(ReadOutPanel):
+    """Reads out T_base_tool; an edited number is solved for the joints."""
+
+    settings = NUMBER_SETTINGS | {"orientation"}
+
+    def __init__(self, session: Session, preferences: Preferences, parent: QWidget | None = None) -> None:
+        super().__init__(session, preferences, parent)
+        self.setObjectName("tool_panel")
+        self._robot: Robot | None = None
+        self._T: FloatArray = np.eye(4)
+        self.tools = combo("tool_selector", "Tool")
+        self.tools.activated.connect(self._on_tool)
+        self.position = NumberRow("tool", _AXES, ("length", "length", "length"), preferences)
+        self.orientations = combo("orientation_selector", "Notation of the orientation", notation_titles())
+        self.orientations.activated.connect(lambda _: preferences.set("orientation", self.orientations.currentData()))
+        self.rows = {name: self._page(name, notation) for name, notation in NOTATIONS.items()}
+        self.matrix = MatrixView(preferences, "Tool pose as a matrix")
+        self.matrix.setObjectName("tool_matrix")
+        self.convention, self.message, self.difference = QLabel(), QLabel(), QLabel()
+        formats = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
+        self.copy = CopyButton("tool_copy", "the tool pose", formats, session)
+        self._connect_position()
+        self._lay_out()
+
+    # --- construction ----------------------------------------------------------------------------------------------
+
+    def _page(self, name: str, notation: Notation) -> NumberRow:
+        row = NumberRow("tool" if name == "rpy" else f"tool_{name}", notation.names, notation.kinds, self._preferences)
+        for index, box in enumerate(row.boxes):
+            box.setReadOnly(notation.write is None)
+            box.quantity_changed.connect(lambda value, i=index, n=notation: self._turn(n, i, value))
+            self._connect_box(box)
+        return row
+
+    def _connect_position(self) -> None:
+        for index, box in enumerate(self.position.boxes):
+            box.quantity_changed.connect(lambda value, i=index: self._move(i, value))
+            self._connect_box(box)
+
+    def _connect_box(self, box: QuantityBox) -> None:
+        box.refused.connect(self._complain)
+        box.editingFinished.connect(self._session.end_stroke)
+
+    def _lay_out(self) -> None:
+        for label, name in (
+            (self.convention, "orientation_convention"),
+            (self.message, "tool_message"),
+            (self.difference, "forward_difference"),
+        ):
+            label.setObjectName(name)
+            label.setWordWrap(True)
+            label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
+            set_role(label, role="muted")
+        set_role(self.message, role="", level="warning")
+        self.message.hide()
+        self.difference.setToolTip(f"<qt>{_SECOND_WAY.replace(chr(10) * 2, '<br><br>')}</qt>")
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(12, 8, 12, 12)
+        column.setSpacing(6)
+        column.addLayout(_headed("Tool", self.tools, self.copy))
+        column.addSpacing(4)
+        column.addLayout(_headed("Position"))
+        column.addWidget(self.position)
+        column.addSpacing(6)
+        column.addLayout(_headed("Orientation", self.orientations))
+        for page in (*self.rows.values(), self.matrix):
+            page.hide()
+            column.addWidget(page)
+        for label in (self.convention, self.message):
+            column.addWidget(label)
+        column.addSpacing(6)
+        column.addLayout(_headed("Checked a second way"))
+        column.addWidget(self.difference)
+        column.addStretch(1)
+        column_of(self, scrolled(inside))
+
+    # --- showing ---------------------------------------------------------------------------------------------------
+
+    def refresh(self) -> None:
+        """Show the tool pose of the present joint values."""
+        robot, q = self._session.robot, self._session.q
+        if robot is not self._robot:
+            self._take_robot(robot)
+        self._T = forward_kinematics(robot, q)
+        self.position.show_values(self._T[:3, 3])
+        self._show_orientation(self._preferences["orientation"])
+        self._hide_message()
+        self._show_second_way(robot, q)
+
+    def _show_second_way(self, robot: Robot, q: FloatArray) -> None:
+        difference = forward_difference(robot, q)
+        position, rotation = (
+            format_scientific(float(difference.position)),
+            format_scientific(float(difference.rotation)),
+        )
+        text = f"Difference to the product of exponentials:\n{position} m in position, {rotation} in rotation."
+        own = "\nSource 000's “zero error” here is really 1.018 dm." if "rv-m1" in robot.name else ""
+        self.difference.setText(text + own)
+
+    def _show_orientation(self, chosen: str) -> None:
+        select(self.orientations, chosen)
+        for name, row in self.rows.items():
+            row.setVisible(name == chosen)
+        self.matrix.setVisible(chosen == MATRIX)
+        if chosen == MATRIX:
+            self.matrix.show_matrix(self._T, length_kind(self._session.robot))
+            self.convention.setText(MATRIX_CONVENTION)
+        else:
+            self.rows[chosen].show_values(NOTATIONS[chosen].read(self._T[:3, :3]))
+            self.convention.setText(NOTATIONS[chosen].convention)
+
+    def _take_robot(self, robot: Robot) -> None:
+        self._robot = robot
+        self.tools.clear()
+        for tool in robot.tools:
+            self.tools.addItem(tool.title, tool.name)
+        select(self.tools, robot.tool_name)
+        for box in self.position.boxes:
+            box.set_kind(length_kind(robot))
+
+    def _complain(self, sentence: str) -> None:
+        if sentence:
+            self.message.setText(sentence)
+            self.message.show()
+            self._session.say(sentence, "warning")
+
+    def _hide_message(self) -> None:
+        self.message.hide()
+
+    # --- editing ---------------------------------------------------------------------------------------------------
+
+    def _on_tool(self) -> None:
+        name = self.tools.currentData()
+        if name != self._session.robot.tool_name:
+            robot = self._session.robot.with_tool(name)
+            self._session.edit(f"Take the {robot.tool.title}", self._session.experiment.with_robot(robot))
+
+    def _move(self, axis: int, value: float) -> None:
+        p = np.array(self._T[:3, 3])
+        p[axis] = value
+        edit = moved_tool(self._session.experiment, self._T, p)
+        self._take(edit, f"Move the tool along {_AXES[axis]}", f"tool {_AXES[axis]}")
+
+    def _turn(self, notation: Notation, index: int, value: float) -> None:
+        assert notation.write is not None, "read-only boxes are not edited"
+        angles = np.array(notation.read(self._T[:3, :3]))
+        angles[index] = value
+        edit = turned_tool(self._session.experiment, self._T, notation.write(angles))
+        self._take(edit, f"Turn the tool's {notation.names[index]}", f"tool {notation.names[index]}")
+
+    def _take(self, edit: ToolEdit, text: str, merge: str) -> None:
+        if edit.q is not None:
+            self._session.move_to(edit.q, text, merge=merge)
+        # The boxes show what is: after a refusal the old numbers, after a solution those that the arm reaches.
+        self.refresh()
+        self._complain(edit.sentence)
+
+    # --- copying ---------------------------------------------------------------------------------------------------
+
+    def _values(self) -> list[NamedValue]:
+        """Position and orientation in the units that are shown."""
+        length = length_kind(self._session.robot)
+        notation = NOTATIONS.get(self._preferences["orientation"], NOTATIONS["rpy"])
+        named = [*zip(_AXES, (length,) * 3, self._T[:3, 3], strict=True)]
+        named += zip(notation.names, notation.kinds, notation.read(self._T[:3, :3]), strict=True)
+        return [_named_value(name, kind, float(value), self._preferences) for name, kind, value in named]
+
+    def _shown_matrix(self) -> FloatArray:
+        scaled = np.array(self._T)
+        scaled[:3, 3] *= display(length_kind(self._session.robot), self._preferences).factor
+        return scaled
+
+    def _is_matrix(self) -> bool:
+        return bool(self._preferences["orientation"] == MATRIX)
+
+    def _as_text(self) -> str:
+        return matrix_text(self._shown_matrix()) if self._is_matrix() else values_text(self._values())
+
+    def _as_numpy(self) -> str:
+        return matrix_numpy(self._shown_matrix()) if self._is_matrix() else values_numpy(self._values())
+
+    def _as_latex(self) -> str:
+        return matrix_latex(self._shown_matrix()) if self._is_matrix() else values_latex(self._values())
+
+
+_ASCII_NAMES = {"φ": "phi", "θ": "theta", "ψ": "psi"}
+
+
+def _named_value(name: str, kind: Kind, value: float, preferences: Preferences) -> NamedValue:
+    shown = display(kind, preferences)
+    return NamedValue(_ASCII_NAMES.get(name, name), value * shown.factor, _UNIT_NAMES[shown.suffix.strip()])
+
+
+def _headed(title: str, *widgets: QWidget) -> QHBoxLayout:
+    """A title, and beside it what belongs to it; the first widget takes the room."""
+    line = QHBoxLayout()
+    label = QLabel(title)
+    set_role(label, role="title")
+    line.addWidget(label)
+    for index, widget in enumerate(widgets):
+        line.addWidget(widget, 1 if index == 0 else 0)
+    return line

@@ -1,0 +1,102 @@
+"""What an edited tool pose means for the joints: the nearest branch, or the sentence that says why there is none."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from rvsim.errors import NoClosedFormError
+from rvsim.experiment import Experiment
+from rvsim.gui.quantities import format_number
+from rvsim.kinematics import forward_kinematics
+from rvsim.kinematics.inverse import Failure, inverse_kinematics, inverse_tasks
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.spatial import pose_difference
+
+_UPRIGHT = "position+pitch+roll"
+_CLOSE = 1e-7  # [m, rad]: what an arm of fewer joints may leave of an edit before it counts as not followed
+
+
+class ToolEdit(NamedTuple):
+    """The joints (n,) that follow an edit [rad, m], or None; a sentence where there is something to say."""
+
+    q: FloatArray | None = None
+    sentence: str = ""
+
+
+class _Solution(NamedTuple):
+    q: FloatArray | None
+    failure: Failure | None
+
+
+def moved_tool(experiment: Experiment, T: FloatArray, p: FloatArray) -> ToolEdit:
+    """The tool of pose T (4, 4) moved to p (3,) [m].
+
+    Its orientation stays; a 5R arm keeps pitch and roll and turns with its waist. Where the arm cannot keep it there,
+    an arm that has a way to reach the place alone does so and says it.
+    """
+    robot = experiment.robot
+    target = np.array(T)
+    target[:3, 3] = p
+    try:
+        known = inverse_tasks(robot)
+        first = _solve(experiment, target, _UPRIGHT if _UPRIGHT in known else None)
+        if first.q is not None:
+            return _followed(robot, first.q, target, position_only=True)
+        if first.failure is not None and first.failure.kind == "orientation" and "position" in known[1:]:
+            return _turned_along(experiment, target)
+    except NoClosedFormError as problem:
+        return ToolEdit(sentence=f"{problem} Set its joints instead.")
+    return ToolEdit(sentence=_reason(robot, first.failure))
+
+
+def turned_tool(experiment: Experiment, T: FloatArray, R: FloatArray) -> ToolEdit:
+    """The tool of pose T (4, 4) turned to R (3, 3), its origin kept."""
+    target = np.array(T)
+    target[:3, :3] = R
+    try:
+        solution = _solve(experiment, target, None)
+    except NoClosedFormError as problem:
+        return ToolEdit(sentence=f"{problem} Set its joints instead.")
+    if solution.q is None:
+        return ToolEdit(sentence=_reason(experiment.robot, solution.failure))
+    return _followed(experiment.robot, solution.q, target, position_only=False)
+
+
+def _solve(experiment: Experiment, target: FloatArray, task: str | None) -> _Solution:
+    """The branch nearest to the present pose; one outside the limits only if they are ignored."""
+    result = inverse_kinematics(experiment.robot, target, task=task, near=experiment.q)
+    if result.failure is None or (experiment.ignore_limits and result.branches):
+        return _Solution(result.branches[0].q, None)
+    return _Solution(None, result.failure)
+
+
+def _followed(robot: Robot, q: FloatArray, target: FloatArray, *, position_only: bool) -> ToolEdit:
+    """The solution, unless it leaves undone what was asked: an arm of few joints solves less than a pose."""
+    difference = pose_difference(forward_kinematics(robot, q), target)
+    left = difference.position if position_only else np.maximum(difference.position, difference.angle)
+    if float(left) < _CLOSE:
+        return ToolEdit(q)
+    way = "moved" if position_only else "turned"
+    return ToolEdit(sentence=f"The tool cannot be {way} that way: the {robot.title} has {robot.dof} joints.")
+
+
+def _turned_along(experiment: Experiment, target: FloatArray) -> ToolEdit:
+    """The place alone, the tool turned as far as it must."""
+    solution = _solve(experiment, target, "position")
+    if solution.q is None:
+        return ToolEdit(sentence=_reason(experiment.robot, solution.failure))
+    angle = pose_difference(forward_kinematics(experiment.robot, solution.q), target).angle
+    turned = format_number(np.degrees(float(angle)), 1)
+    return ToolEdit(solution.q, f"The tool had to turn by {turned}° to get there.")
+
+
+def _reason(robot: Robot, failure: Failure | None) -> str:
+    assert failure is not None, "no solution without a reason"
+    if failure.kind == "orientation" and robot.dof < 6:
+        return f"{failure.reason} With {robot.dof} joints the tool's orientation is not free."
+    if failure.kind == "limits":
+        return f"{failure.reason} Switch “Ignore limits” on to go there."
+    return failure.reason
