@@ -20,7 +20,14 @@ The map of the house, from the ground up (each floor imports only floors below i
 """
 
 from rvsim.files.robot_file import load_robot, robot_names
-from rvsim.kinematics import forward_kinematics, inverse_kinematics_batch, jacobian, link_transforms
+from rvsim.kinematics import (
+    forward_kinematics,
+    inverse_branches,
+    inverse_kinematics,
+    inverse_kinematics_batch,
+    jacobian,
+    link_transforms,
+)
 from rvsim.robot import Robot
 
 __version__ = "0.1.0"
@@ -29,6 +36,8 @@ __all__ = [
     "Robot",
     "__version__",
     "forward_kinematics",
+    "inverse_branches",
+    "inverse_kinematics",
     "inverse_kinematics_batch",
     "jacobian",
     "link_transforms",

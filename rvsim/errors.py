@@ -9,6 +9,7 @@
     ├── PathFileError          a file of points that cannot be read, with its row and column
     ├── FileWriteError         a file that cannot be written, with its path and the reason
     ├── ExpressionError        a typed value that is no number
+    ├── PoseError              a 4 × 4 matrix that is no pose of a tool
     ├── NoClosedFormError      an arm whose inverse kinematics has no closed form here
     └── NoMassDataError        dynamics asked of an arm without masses
 
@@ -105,6 +106,14 @@ class ExpressionError(RvsimError, ValueError):
     def __init__(self, text: str, reason: str) -> None:
         self.text, self.reason = text, reason
         super().__init__(f"“{text}” is no number: {reason}. Type a number or an expression like pi/4, sqrt(2)/2.")
+
+
+class PoseError(RvsimError, ValueError):
+    """A 4 × 4 matrix that is no pose of a tool."""
+
+    def __init__(self, what: str) -> None:
+        self.what = what
+        super().__init__(f"This matrix is no pose: {what}")
 
 
 class NoClosedFormError(RvsimError):

@@ -10,11 +10,34 @@ from rvsim.kinematics.exponentials import (
     screw_axes,
 )
 from rvsim.kinematics.forward import forward_kinematics, link_transforms
-from rvsim.kinematics.inverse import branch_labels, free_pitch_batch, inverse_kinematics_batch, limit_copies
+from rvsim.kinematics.inverse import (
+    DEFAULT_ORDER,
+    ORDER_CRITERIA,
+    Branch,
+    Failure,
+    InverseResult,
+    LimitCopies,
+    Nearest,
+    branch_labels,
+    free_pitch_batch,
+    inverse_branches,
+    inverse_kinematics,
+    inverse_kinematics_batch,
+    inverse_tasks,
+    limit_copies,
+    limit_margins,
+)
 from rvsim.kinematics.jacobian import PoseAndJacobian, jacobian, pose_and_jacobian
 
 __all__ = [
+    "DEFAULT_ORDER",
+    "ORDER_CRITERIA",
+    "Branch",
+    "Failure",
     "ForwardDifference",
+    "InverseResult",
+    "LimitCopies",
+    "Nearest",
     "PoseAndJacobian",
     "ProductOfExponentials",
     "branch_labels",
@@ -23,10 +46,14 @@ __all__ = [
     "forward_difference",
     "forward_kinematics",
     "free_pitch_batch",
+    "inverse_branches",
+    "inverse_kinematics",
     "inverse_kinematics_batch",
+    "inverse_tasks",
     "jacobian",
     "joint_transforms",
     "limit_copies",
+    "limit_margins",
     "link_transforms",
     "pose_and_jacobian",
     "product_of_exponentials",

@@ -4,12 +4,23 @@ from rvsim.kinematics.inverse.batch import inverse_kinematics_batch
 from rvsim.kinematics.inverse.copies import LimitCopies, limit_copies, limit_margins
 from rvsim.kinematics.inverse.families import branch_labels
 from rvsim.kinematics.inverse.free_pitch import free_pitch_batch
+from rvsim.kinematics.inverse.result import DEFAULT_ORDER, ORDER_CRITERIA, Branch, Failure, InverseResult, Nearest
+from rvsim.kinematics.inverse.solve import inverse_branches, inverse_kinematics, inverse_tasks
 
 __all__ = [
+    "DEFAULT_ORDER",
+    "ORDER_CRITERIA",
+    "Branch",
+    "Failure",
+    "InverseResult",
     "LimitCopies",
+    "Nearest",
     "branch_labels",
     "free_pitch_batch",
+    "inverse_branches",
+    "inverse_kinematics",
     "inverse_kinematics_batch",
+    "inverse_tasks",
     "limit_copies",
     "limit_margins",
 ]

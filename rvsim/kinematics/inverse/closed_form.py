@@ -40,6 +40,10 @@ class ClosedForm(ABC):
         Where a joint is free (a continuum of solutions) it takes its value in `free` (n,).
         """
 
+    def reaches(self, place: FloatArray) -> bool | None:  # noqa: ARG002 (a family may not know)
+        """Whether the tool can be at a place (3,) of frame 0 somehow, limits aside; None: not known here."""
+        return None
+
     @classmethod
     def failure(cls, chain: Chain) -> str:
         """The first condition the arm breaks, or ""."""

@@ -48,6 +48,13 @@ def elbow_up(a2: float, a3: float) -> float:
     return -math.copysign(1.0, a2 * a3)
 
 
+def links_reach(distance: float, a2: float, a3: float, last: float) -> bool:
+    """Whether two links and a third that may point anywhere in the plane reach a point at some distance."""
+    longest, rest = max(abs(a2), abs(a3), abs(last)), abs(a2) + abs(a3) + abs(last)
+    slack = COSINE_TOLERANCE * rest
+    return max(0.0, 2.0 * longest - rest) - slack <= distance <= rest + slack
+
+
 def erase(branches: FloatArray, missing: Mask) -> None:
     """NaN in every joint (..., m) of the poses (m,) that have no solution."""
     if missing.any():

@@ -14,7 +14,8 @@ import numpy as np
 
 from rvsim.kinematics.inverse.chain import Chain
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, is_zero, long_enough, parallel, right_angle
-from rvsim.kinematics.inverse.elbow import Elbow, Mask, elbow_up, erase, solve_elbow
+from rvsim.kinematics.inverse.elbow import Elbow, Mask, elbow_up, erase, links_reach, solve_elbow
+from rvsim.kinematics.inverse.projection import has_tip_on_roll_axis
 from rvsim.kinematics.inverse.words import ELBOW, combine, side_names
 from rvsim.spatial.arrays import FloatArray
 
@@ -76,6 +77,14 @@ class FiveAxis(ClosedForm):
         erase(q[:2], front.missing | plane.infeasible)
         erase(q[2:], back.missing | plane.infeasible)
         return q
+
+    def reaches(self, place: FloatArray) -> bool | None:
+        """Three links in the plane of either side; a tip beside the roll axis is not known here."""
+        if not has_tip_on_roll_axis(self.chain):
+            return None
+        last = math.hypot(self.d5 + self.chain.T_n_tool[2, 3], self.a4)
+        out, up = math.hypot(place[0], place[1]), float(place[2]) - self.d1
+        return any(links_reach(math.hypot(side - self.a1, up), self.a2, self.a3, last) for side in (out, -out))
 
     def fill_side(self, side: FloatArray, u: FloatArray, w: FloatArray, bend: FloatArray, up: float) -> Mask:
         """θ2, θ3, θ4 of one side (2, 5, ...), elbow up first, for the wrist (u, w) and bend = θ2 + θ3 + θ4."""

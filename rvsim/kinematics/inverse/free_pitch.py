@@ -33,10 +33,15 @@ def free_pitch_batch(robot: Robot, p: ArrayLike, pitches: ArrayLike, roll: float
     )
     if places.ndim != 2 or angles.ndim != 1:
         raise ShapeError("p and pitches", "(m, 3) and (k,)", (*places.shape, *angles.shape))
+    return free_pitches(form, places, angles, roll)
+
+
+def free_pitches(form: FiveAxis, places: FloatArray, angles: FloatArray, roll: float) -> FloatArray:
+    """The same of a known closed form."""
     chain = form.chain
     x, y, z = chain.T_0_base[:3, :3] @ places.T + chain.T_0_base[:3, 3:]
     rho = np.hypot(x, y)
-    away = np.where(rho <= 1e-10 * chain.size, chain.inner(robot.home)[0], np.arctan2(y, x))
+    away = np.where(rho <= 1e-10 * chain.size, chain.inner(chain.robot.home)[0], np.arctan2(y, x))
     theta5 = chain.sign[4] * roll + chain.offset[4]
     q = np.empty((4, 5, len(places), len(angles)))
     with np.errstate(invalid="ignore"):

@@ -60,8 +60,13 @@ def rotation_onto(start: FloatArray, end: FloatArray) -> FloatArray:
     return np.asarray(np.eye(3) + cross + cross @ cross / (1.0 + cosine)[:, None, None])
 
 
+def has_tip_on_roll_axis(chain: Chain) -> bool:
+    """Whether turning the roll joint leaves the tool tip in its place."""
+    return bool(np.abs(chain.T_n_tool[:2, 3]).max() <= TOLERANCE)
+
+
 def _require_tip_on_roll_axis(chain: Chain) -> None:
-    if np.abs(chain.T_n_tool[:2, 3]).max() > TOLERANCE:
+    if not has_tip_on_roll_axis(chain):
         raise NoClosedFormError(chain.robot.name, "the tool tip must lie on the roll axis to keep its place.")
 
 

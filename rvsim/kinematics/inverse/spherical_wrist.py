@@ -13,6 +13,7 @@ import numpy as np
 
 from rvsim.kinematics.inverse.chain import Chain
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, intersecting, is_zero, right_angle
+from rvsim.kinematics.inverse.elbow import links_reach
 from rvsim.kinematics.inverse.regional import Regional, regional_conditions
 from rvsim.kinematics.inverse.trigonometry import cosine_and_sine
 from rvsim.kinematics.inverse.waist import Side
@@ -43,6 +44,14 @@ class SphericalWrist(ClosedForm):
         self.regional = Regional.of(chain, (float(chain.a[2]), -float(chain.d[3]), 0.0))
         self.d6 = float(chain.d[5])
         self.labels = combine(side_names(chain), ELBOW, wrist_names(chain, 4))
+
+    def reaches(self, place: FloatArray) -> bool | None:
+        """The wrist turns the tool all around its centre; an arm with offsets at its waist is not known here."""
+        arm = self.regional
+        if arm.a1 or arm.offset:
+            return None
+        last = float(np.linalg.norm(self.chain.T_n_tool[:3, 3] + (0.0, 0.0, self.d6)))
+        return links_reach(math.hypot(*place[:2], place[2] - arm.d1), arm.a2, arm.forearm, last)
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
         """The wrist's centre gives θ1, θ2, θ3; the rotation that is left gives the wrist."""

@@ -20,7 +20,7 @@ from rvsim.kinematics.inverse.words import ELBOW, combine, side_names, wrist_nam
 from rvsim.spatial.arrays import FloatArray
 
 Flange = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
-_SINGULAR = 1e-10  # sin θ5: below it axis 6 is parallel to axes 2, 3, 4, and θ6 is free
+SINGULAR = 1e-10  # sin θ5: below it axis 6 is parallel to axes 2, 3, 4, and θ6 is free
 
 
 class ParallelAxes(ClosedForm):
@@ -65,7 +65,7 @@ class ParallelAxes(ClosedForm):
         u = side.out - self.a1
         sine = np.sqrt(xn * xn + yn * yn)
         c6, s6 = xn / sine, -yn / sine
-        singular = sine < _SINGULAR
+        singular = sine < SINGULAR
         if singular.any():
             theta6 = self._free_wrist((xr, yr, xz, yz), u, w, singular, free6)
             c6[singular], s6[singular] = np.cos(theta6), np.sin(theta6)

@@ -1,0 +1,114 @@
+"""Inverse kinematics of one pose: every branch with its verdict, or why not and what is nearest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rvsim.errors import PoseError, ShapeError
+from rvsim.kinematics.dh import joint_array
+from rvsim.kinematics.inverse.batch import solve_block
+from rvsim.kinematics.inverse.families import closed_form
+from rvsim.kinematics.inverse.result import DEFAULT_ORDER, InverseResult, in_order
+from rvsim.kinematics.inverse.task import candidates, tasks
+from rvsim.kinematics.inverse.ur import ParallelAxes
+from rvsim.kinematics.inverse.ur_scalar import ScalarParallelAxes
+from rvsim.kinematics.inverse.verdict import branches_of
+from rvsim.kinematics.inverse.why_not import limits_failure, reach_failure
+from rvsim.robot import Robot
+from rvsim.spatial import nearest_rotation
+from rvsim.spatial.arrays import FloatArray, floats
+
+_ROTATION = 1e-2  # a rotation part that far from orthogonal is a mistake, not rounding
+
+
+def inverse_tasks(robot: Robot) -> tuple[str, ...]:
+    """What can be asked of this arm's tool in closed form, its own task first, for instance "pose", "position".
+
+    Raises:
+        NoClosedFormError: the arm has no closed form.
+    """
+    return tasks(closed_form(robot))
+
+
+def inverse_kinematics(
+    robot: Robot,
+    T: ArrayLike,
+    *,
+    task: str | None = None,
+    near: ArrayLike | None = None,
+    order: Sequence[str] = DEFAULT_ORDER,
+) -> InverseResult:
+    """Every joint pose that brings the tool to T (4, 4), each checked by forward kinematics; or why there is none.
+
+    Args:
+        robot: any arm whose DH rows fit one of the families; a rotation part of T that is off by rounding is mended.
+        T: T_base_tool.
+        task: what of T counts, one of `inverse_tasks`; None is the arm's own: the pose, or "position", "position+yaw",
+            "x,y" where the arm has fewer joints. "position+pitch+roll" lets a 5R arm turn T about the vertical.
+        near: (n,) where the arm is [rad, m], for the order, the copies by whole turns, and joints that are free; None
+            is its home.
+        order: the criteria that put the branches in order, of `ORDER_CRITERIA`, the most important first.
+
+    Raises:
+        NoClosedFormError: the arm has no closed form.
+        UnknownNameError: a task or a criterion that does not exist.
+        PoseError: T is no pose. ShapeError: T is not (4, 4), near not (n,).
+    """
+    form = closed_form(robot)
+    target = _pose(T)
+    here = robot.home if near is None else joint_array(robot, near)
+    found = candidates(form, task, target, here)
+    branches = in_order(branches_of(robot, found, here), order)
+    if any(branch.within_limits for branch in branches):
+        return InverseResult(branches, None)
+    if branches:
+        return InverseResult(branches, limits_failure(form, found, branches, here))
+    return InverseResult((), reach_failure(form, found, here, order))
+
+
+def inverse_branches(robot: Robot, T: ArrayLike) -> FloatArray:
+    """Every branch (b, n) for one pose T (4, 4) and the arm's own task: the fast single call, without verdicts.
+
+    Raises:
+        NoClosedFormError: the arm has no closed form.
+        ShapeError: T is not (4, 4).
+    """
+    pose = floats("T", T, 4, 4)
+    if pose.ndim != 2:
+        raise ShapeError("T", "(4, 4)", pose.shape)
+    form = closed_form(robot)
+    scalar = _scalar_form(robot)
+    joints = scalar.solve(pose) if scalar else None
+    if joints is not None:
+        return np.array(joints).reshape(-1, robot.dof)
+    q = solve_block(form, pose[None], robot.home)[:, :, 0]
+    return np.asarray(q[~np.isnan(q).any(axis=1)])
+
+
+@lru_cache(maxsize=64)
+def _scalar_form(robot: Robot) -> ScalarParallelAxes | None:
+    form = closed_form(robot)
+    scalar = ScalarParallelAxes(form) if isinstance(form, ParallelAxes) else None
+    return scalar if scalar and scalar.fits else None
+
+
+def _pose(T: ArrayLike) -> FloatArray:
+    """T with the nearest rotation in its rotation part (the polar factor)."""
+    pose = floats("T", T, 4, 4)
+    if pose.ndim != 2:
+        raise ShapeError("T", "(4, 4)", pose.shape)
+    if not np.isfinite(pose).all() or not np.array_equal(pose[3], (0.0, 0.0, 0.0, 1.0)):
+        raise PoseError("its entries must be finite and its last row 0 0 0 1.")
+    R = pose[:3, :3]
+    astray = float(np.abs(R.T @ R - np.eye(3)).max())
+    if astray > _ROTATION or np.linalg.det(R) < 0.0:
+        raise PoseError(f"its columns are no right-handed, orthogonal unit vectors (off by {astray:.3g}).")
+    if astray < 1e-14:
+        return pose
+    mended = pose.copy()
+    mended[:3, :3] = nearest_rotation(R)
+    return mended
