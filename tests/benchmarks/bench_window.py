@@ -1,7 +1,7 @@
 """How fast the window is: value change to painted frame, first window, memory over many frames.
 
-Each figure comes from a process of its own, on the screen that there is (`dev.py bench` lends a virtual one). Wall-clock times: what a
-person waits for. Absolute figures of one machine; read them beside the machine's name.
+Each figure comes from a process of its own, on the screen that there is (`dev.py bench` lends a virtual one).
+Wall-clock times: what a person waits for. Figures of one machine; read them beside its name.
 """
 
 from __future__ import annotations
