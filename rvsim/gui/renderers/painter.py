@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -15,8 +14,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
-from rvsim.gui.renderers.painter_ink import Stroke, qcolor
-from rvsim.gui.renderers.painter_lens import Lens, Seen, look_at
+from rvsim.gui.renderers.painter_ink import Stroke, polygon, qcolor
+from rvsim.gui.renderers.painter_lens import BOX_TOP, Lens, Seen, clipped_polygon, look_at
 from rvsim.gui.renderers.painter_lines import (
     dot_strokes,
     draw_labels,
@@ -24,8 +23,9 @@ from rvsim.gui.renderers.painter_lines import (
     segments_strokes,
     triad_strokes,
 )
+from rvsim.gui.renderers.painter_raster import SolidPicture, render_solids
 from rvsim.gui.renderers.painter_shadow import draw_shadow
-from rvsim.gui.renderers.painter_solids import Solid, box_plate, solid_strokes
+from rvsim.gui.renderers.painter_solids import Solid
 from rvsim.scene import Box, Camera, Capsule, Color, Dots, Item, Labels, Polyline, Scene, Segments, Triads
 from rvsim.scene.floor import FLOOR_KEY
 
@@ -52,7 +52,10 @@ def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, hei
     layers = _layers(look_at(scene.items, lens))
     _paint_floor(painter, layers, lens, scene.background)
     _paint_ghosts(painter, layers.ghosts, lens)
-    _paint(painter, _strokes(layers, lens))
+    solids = render_solids(layers.solids, lens, painter.device().devicePixelRatioF())
+    if solids is not None:
+        solids.draw(painter)
+    _paint(painter, [stroke for seen in layers.lines for stroke in _line_strokes(seen, lens, solids)])
     _paint(painter, [stroke for seen in layers.triads for stroke in triad_strokes(seen, lens, scene.background)])
     for seen in layers.labels:
         draw_labels(painter, seen, lens, scene.background)
@@ -80,19 +83,12 @@ def _paint(painter: QPainter, strokes: Iterable[Stroke]) -> None:
         stroke.draw(painter)
 
 
-def _strokes(layers: _Layers, lens: Lens) -> list[Stroke]:
-    strokes = [stroke for seen in layers.solids for stroke in solid_strokes(seen, lens)]
-    for seen in layers.lines:
-        strokes += _line_strokes(seen, lens, among_solids=bool(layers.solids))
-    return strokes
-
-
-def _line_strokes(seen: Seen[Item], lens: Lens, among_solids: bool) -> list[Stroke]:
+def _line_strokes(seen: Seen[Item], lens: Lens, solids: SolidPicture | None) -> list[Stroke]:
     item, eye, pixels = seen
     if isinstance(item, Polyline):
-        return polyline_strokes(Seen(item, eye, pixels), lens, among_solids)
+        return polyline_strokes(Seen(item, eye, pixels), lens, solids)
     if isinstance(item, Dots):
-        return dot_strokes(Seen(item, eye, pixels), lens)
+        return dot_strokes(Seen(item, eye, pixels), lens, solids)
     return segments_strokes(Seen(item, eye, pixels), lens) if isinstance(item, Segments) else []
 
 
@@ -102,30 +98,22 @@ def _paint_floor(painter: QPainter, layers: _Layers, lens: Lens, background: Col
         if isinstance(seen.item, Box):
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(qcolor(seen.item.color))
-            painter.drawPolygon(box_plate(seen.eye, lens))
-        for stroke in _line_strokes(seen, lens, among_solids=False):
+            painter.drawPolygon(polygon(clipped_polygon(seen.eye[BOX_TOP], lens)))
+        for stroke in _line_strokes(seen, lens, None):
             stroke.draw(painter)
     if layers.floor and layers.solids:
         draw_shadow(painter, [seen.item for seen in layers.solids], lens, background)
 
 
 def _paint_ghosts(painter: QPainter, ghosts: list[Seen[Solid]], lens: Lens) -> None:
-    """See-through solids of one alpha are painted opaque on a layer and laid on the picture as one pane of glass."""
+    """See-through solids of one alpha are one pane of glass: what lies inside another of them is not seen."""
     for alpha in sorted({seen.item.color.alpha for seen in ghosts}):
-        layer = _clear_image(lens.width, lens.height, painter.device().devicePixelRatioF())
-        layer_painter = QPainter(layer)
-        layer_painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        solids = [_opaque(seen) for seen in ghosts if seen.item.color.alpha == alpha]
-        _paint(layer_painter, [stroke for seen in solids for stroke in solid_strokes(seen, lens)])
-        layer_painter.end()
-        painter.setOpacity(alpha)
-        painter.drawImage(0, 0, layer)
-        painter.setOpacity(1.0)
-
-
-def _opaque(seen: Seen[Solid]) -> Seen[Solid]:
-    item, eye, pixels = seen
-    return Seen(replace(item, color=item.color._replace(alpha=1.0)), eye, pixels)
+        alike = [seen for seen in ghosts if seen.item.color.alpha == alpha]
+        picture = render_solids(alike, lens, painter.device().devicePixelRatioF())
+        if picture is not None:
+            painter.setOpacity(alpha)
+            picture.draw(painter)
+            painter.setOpacity(1.0)
 
 
 def _clear_image(width: float, height: float, ratio: float) -> QImage:

@@ -14,8 +14,9 @@ from rvsim.scene import Box, Camera, Capsule, Dots, Item, Labels, Polyline, Segm
 
 FloatArray = NDArray[np.float64]
 
-# The corners of a box of edge 2, and its faces in an order that goes around each face.
+# The corners of a box of edge 2.
 BOX_CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
+BOX_TOP = [1, 3, 7, 5]  # the corners of its upper face, going around
 _TRIAD_ENDS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float64)
 
 

@@ -4,39 +4,38 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtGui import QColor
 
-from rvsim.gui.renderers.painter_ink import qcolor
 from rvsim.scene import Color
 
-FloatArray = NDArray[np.float64]
+SingleArray = NDArray[np.float32]
+PixelArray = NDArray[np.uint32]
+
+
+def _unit(*vector: float) -> SingleArray:
+    return np.asarray(np.array(vector) / np.linalg.norm(vector), dtype=np.float32)
+
 
 # Eye axes: x right, y up, depth away from the viewer.
-_VIEWER = np.array([0.0, 0.0, -1.0])
-LIGHT = np.array([-0.42, 0.68, -0.60]) / np.linalg.norm([-0.42, 0.68, -0.60])
-_HALFWAY = (LIGHT + _VIEWER) / np.linalg.norm(LIGHT + _VIEWER)
-_AMBIENT, _DIFFUSE, _SKY = 0.46, 0.50, 0.10
-_SHINE, _SHARPNESS = 0.30, 22.0
+LIGHT = _unit(-0.42, 0.68, -0.60)
+HALFWAY = _unit(*(LIGHT + np.array([0.0, 0.0, -1.0])))  # between the light and the viewer
+UPWARD = _unit(0.0, 1.0, 0.0)
+_AMBIENT, _DIFFUSE, _SKY, _SHINE = 0.46, 0.50, 0.10, 0.28
 
 
-def brightness(normals: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """(matt, shine), each (…), of surfaces with unit normals (…, 3): Lambert, Blinn, and a sky above."""
-    facing = np.maximum(normals @ LIGHT, 0.0)
-    matt = _AMBIENT + _DIFFUSE * facing + _SKY * normals[..., 1]
-    shine = _SHINE * np.maximum(normals @ _HALFWAY, 0.0) ** _SHARPNESS
-    return matt, shine
+def lit(color: Color, facing: SingleArray, halfway: SingleArray, upward: SingleArray) -> PixelArray:
+    """(n,) opaque pixels 0xAARRGGBB of a colour on surfaces with unit normals N.
 
+    Lambert's matt part, Blinn's highlight with exponent 16, and a sky that is brighter above.
 
-def lit(color: Color, matt: float, shine: float) -> QColor:
-    """The colour under that light."""
-    red, green, blue = (channel * matt + shine * (1.0 - 0.5 * channel) for channel in color[:3])
-    return qcolor(Color(red, green, blue, color.alpha))
-
-
-def lit_stops(color: Color, places: FloatArray, normals: FloatArray) -> list[tuple[float, QColor]]:
-    """Gradient stops at places (k,) 0…1 for normals (k, 3)."""
-    matt, shine = brightness(normals)
-    return [
-        (place, lit(color, bright, glossy))
-        for place, bright, glossy in zip(places.tolist(), matt.tolist(), shine.tolist(), strict=True)
-    ]
+    Args:
+        facing, halfway, upward: (n,) N · LIGHT, N · HALFWAY, and N's y.
+    """
+    matt = _AMBIENT + _DIFFUSE * np.maximum(facing, 0.0) + _SKY * upward
+    shine = np.maximum(halfway, 0.0)
+    for _ in range(4):
+        shine = shine * shine
+    pixels = np.full(matt.shape, 0xFF000000, dtype=np.uint32)
+    for channel, place in zip(color[:3], (16, 8, 0), strict=True):
+        bright = (255.0 * channel) * matt + (255.0 * _SHINE * (1.0 - 0.5 * channel)) * shine
+        pixels |= np.clip(bright, 0.0, 255.0).astype(np.uint32) << np.uint32(place)
+    return pixels

@@ -11,53 +11,66 @@ from PySide6.QtGui import QPainter, QPolygonF
 
 from rvsim.gui.renderers.painter_ink import Stroke, pen, polygon, qcolor, shaded, text_anchor, text_picture
 from rvsim.gui.renderers.painter_lens import Lens, Seen, clipped_pieces
+from rvsim.gui.renderers.painter_raster import SolidPicture
 from rvsim.scene import Color, Dots, Labels, Polyline, Segments, Triads
 from rvsim.scene.palette import axis_colors
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 
 _TUBE_WIDTH = 4.0  # from this width on a line is shaded like a tube
-_CHUNKS = 48
+_FINE = 5.0  # [pixels]
+_SHORT = 25  # points
 _AXIS_WIDTH = 2.2
 
 
-def polyline_strokes(seen: Seen[Polyline], lens: Lens, among_solids: bool) -> list[Stroke]:
-    """A polyline, in chunks where solids may hide parts of it."""
+def polyline_strokes(seen: Seen[Polyline], lens: Lens, solids: SolidPicture | None) -> list[Stroke]:
+    """A polyline, less what the solids hide of it."""
     strokes = []
-    for eye, pixels in _runs(seen, lens):
-        for start, stop in _chunks(len(eye), among_solids):
-            depth = float(eye[start:stop, 2].mean())
-            strokes.append(_line_stroke(depth, _thinned(pixels[start:stop]), seen.item))
+    for eye in _runs(seen.eye, lens.before(seen.eye)):
+        thin = _thinned(eye, lens)
+        fine = thin if solids is None else _subdivided(thin, lens)
+        pixels = lens.pixels(fine)
+        shown = np.ones(len(fine), dtype=bool) if solids is None else ~solids.hides(pixels, fine[:, 2])
+        strokes += [
+            _line_stroke(float(fine[start:stop, 2].mean()), pixels[start:stop], seen.item)
+            for start, stop in _spans(shown)
+        ]
     return strokes + _cut_strokes(seen, lens)
 
 
-def _runs(seen: Seen[Polyline], lens: Lens) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """The stretches of a polyline that are wholly before the eye and numbers."""
-    visible = lens.before(seen.eye)
-    if visible.all():
-        if len(visible) > 1:
-            yield seen.eye, seen.pixels
-        return
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], visible, [False]]).astype(np.int8)))
-    for start, stop in edges.reshape(-1, 2):
-        if stop - start > 1:
-            yield seen.eye[start:stop], seen.pixels[start:stop]
+def _runs(eye: FloatArray, visible: BoolArray) -> Iterator[FloatArray]:
+    """The stretches of a line that are wholly before the eye, and numbers."""
+    for start, stop in _spans(visible):
+        yield eye[start:stop]
 
 
-def _chunks(count: int, among_solids: bool) -> Iterator[tuple[int, int]]:
-    size = max(count // _CHUNKS, 8) if among_solids else count
-    for start in range(0, count - 1, size):
-        yield start, min(start + size + 1, count)
+def _spans(mask: BoolArray) -> list[tuple[int, int]]:
+    """(start, stop) of each stretch of at least two that are True."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8))).reshape(-1, 2)
+    return [(int(start), int(stop)) for start, stop in edges if stop - start > 1]
 
 
-def _thinned(pixels: FloatArray) -> FloatArray:
-    """Without the points that no eye can tell apart: at most one for each half pixel of the line's length."""
-    if len(pixels) < 200:
-        return pixels
-    steps = np.cumsum(np.abs(np.diff(pixels, axis=0)).sum(axis=1))
-    keep = np.concatenate([[True], np.diff(np.floor(2.0 * steps), prepend=0.0) > 0])
+def _subdivided(eye: FloatArray, lens: Lens) -> FloatArray:
+    """With more points, so that no piece is much longer than a few pixels: what is hidden is told point by point."""
+    steps = np.hypot(*np.diff(lens.pixels(eye), axis=0).T)
+    counts = np.clip(np.ceil(steps / _FINE), 1, 400).astype(int)
+    if counts.max() == 1:
+        return eye
+    firsts = np.repeat(np.arange(len(counts)), counts)
+    shares = np.concatenate([np.arange(count) / count for count in counts.tolist()])[:, None]
+    inner = eye[firsts] + shares * (eye[firsts + 1] - eye[firsts])
+    return np.concatenate([inner, eye[-1:]])
+
+
+def _thinned(eye: FloatArray, lens: Lens) -> FloatArray:
+    """Without the points that no eye can tell apart: about one a pixel of the line's length is enough."""
+    if len(eye) < 200:
+        return eye
+    steps = np.cumsum(np.abs(np.diff(lens.pixels(eye), axis=0)).sum(axis=1))
+    keep = np.concatenate([[True], np.diff(np.floor(0.7 * steps), prepend=0.0) > 0])
     keep[-1] = True
-    thinned: FloatArray = pixels[keep]
+    thinned: FloatArray = eye[keep]
     return thinned
 
 
@@ -72,23 +85,31 @@ def _cut_strokes(seen: Seen[Polyline], lens: Lens) -> list[Stroke]:
 
 
 def _line_stroke(depth: float, pixels: FloatArray, item: Polyline) -> Stroke:
-    line, color, width, dashed = polygon(pixels), item.color, item.width, item.dashed
+    color, width, dashed = item.color, item.width, item.dashed
+    # Qt strokes short lines faster. But joints of see-through lines would show, and dashes would begin anew.
+    long = len(pixels) > 2 * _SHORT and not dashed and color.alpha >= 1.0
+    lines = [polygon(piece) for piece in (_short_pieces(pixels) if long else [pixels])]
     if width >= _TUBE_WIDTH and not dashed and color.alpha >= 1.0:
-        return Stroke(depth, lambda painter: _draw_tube(painter, line, color, width))
-    return Stroke(depth, lambda painter: _draw_line(painter, line, color, width, dashed))
+        return Stroke(depth, lambda painter: _draw_tube(painter, lines, color, width))
+    return Stroke(depth, lambda painter: _draw_lines(painter, lines, color, width, dashed))
 
 
-def _draw_line(painter: QPainter, line: QPolygonF, color: Color, width: float, dashed: bool) -> None:
+def _short_pieces(pixels: FloatArray) -> list[FloatArray]:
+    return [pixels[start : start + _SHORT + 1] for start in range(0, len(pixels) - 1, _SHORT)]
+
+
+def _draw_lines(painter: QPainter, lines: list[QPolygonF], color: Color, width: float, dashed: bool) -> None:
     painter.setPen(pen(color, width, dashed))
-    painter.drawPolyline(line)
+    for line in lines:
+        painter.drawPolyline(line)
 
 
-def _draw_tube(painter: QPainter, line: QPolygonF, color: Color, width: float) -> None:
+def _draw_tube(painter: QPainter, lines: list[QPolygonF], color: Color, width: float) -> None:
     """A dark rim, the colour, and a light stripe towards the light: it also makes yellow readable on white."""
-    _draw_line(painter, line, shaded(color, 0.6), width, False)
-    _draw_line(painter, line, color, width - 2.0, False)
-    painter.setPen(pen(shaded(color, 1.4), 0.28 * width))
-    painter.drawPolyline(line.translated(-0.12 * width, -0.14 * width))
+    _draw_lines(painter, lines, shaded(color, 0.6), width, False)
+    _draw_lines(painter, lines, color, width - 2.0, False)
+    lit = [line.translated(-0.12 * width, -0.14 * width) for line in lines]
+    _draw_lines(painter, lit, shaded(color, 1.4), 0.28 * width, False)
 
 
 def segments_strokes(seen: Seen[Segments], lens: Lens) -> list[Stroke]:
@@ -106,9 +127,11 @@ def segments_strokes(seen: Seen[Segments], lens: Lens) -> list[Stroke]:
     return [Stroke(float(np.nanmax(seen.eye[:, 2])), draw)]
 
 
-def dot_strokes(seen: Seen[Dots], lens: Lens) -> list[Stroke]:
+def dot_strokes(seen: Seen[Dots], lens: Lens, solids: SolidPicture | None) -> list[Stroke]:
     """Dots with a rim, a little nearer than the lines that end in them."""
     visible = lens.before(seen.eye)
+    if solids is not None:
+        visible &= ~solids.hides(seen.pixels, seen.eye[:, 2])
     nearer = 0.01 * lens.distance
     return [
         _dot_stroke(float(depth) - nearer, float(x), float(y), seen.item)

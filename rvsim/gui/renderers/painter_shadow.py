@@ -1,4 +1,4 @@
-"""The soft shadow of the solids on the floor, as if the light stood right above."""
+"""The soft shadow of the solids on the floor, as if the light stood right above: painted small, blurred, enlarged."""
 
 from __future__ import annotations
 
@@ -6,65 +6,113 @@ from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QPainter, QPainterPath
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QImage, QPainter
 
-from rvsim.gui.renderers.painter_ink import polygon, qcolor
+from rvsim.gui.renderers.painter_ink import polygon
 from rvsim.gui.renderers.painter_lens import BOX_CORNERS, Lens, clipped_polygon
 from rvsim.scene import Box, Capsule, Color
 from rvsim.scene.palette import DARK, LIGHT, luminance
 
 FloatArray = NDArray[np.float64]
 
-_TURN = np.linspace(0.0, 2 * np.pi, 20, endpoint=False)
-_CIRCLE = np.stack([np.cos(_TURN), np.sin(_TURN)], axis=1)
-_SOFTNESS = (1.5, 1.15, 0.8)  # the shadow is painted once for each of these widths
+_COARSE = 5.0  # pixels of the picture in one of the shadow
+_BLUR = 2  # [pixels of the shadow]
+_HALF_TURN = np.linspace(-np.pi / 2, np.pi / 2, 9)
+# (3, 2, 4) the corners of the faces across each axis: on its negative side, on its positive side.
+_FACES = np.array([[[0, 1, 3, 2], [4, 5, 7, 6]], [[0, 1, 5, 4], [2, 3, 7, 6]], [[0, 2, 6, 4], [1, 3, 7, 5]]])
 
 
 def draw_shadow(painter: QPainter, solids: Iterable[Capsule | Box], lens: Lens, background: Color) -> None:
-    """One shadow for all solids, softer towards its rim."""
+    """One shadow for all solids."""
+    outlines = [outline for solid in solids for outline in _footprints(solid) if np.isfinite(outline).all()]
+    pixels = _on_screen(outlines, lens)
+    region = _region(pixels, lens)
+    if region is None:
+        return
+    left, top, width, height = region
+    mask = np.zeros((height, -(-width // 4) * 4), dtype=np.uint8)  # Qt wants rows of whole words
+    _fill(mask, width, height, [(outline - (left, top)) / _COARSE for outline in pixels])
     color = (LIGHT if luminance(background) > 0.5 else DARK).shadow
+    shadow = _tinted(_blurred(mask[:, :width]), color)
+    image = QImage(shadow.data, width, height, 4 * width, QImage.Format.Format_ARGB32_Premultiplied)
+    painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+    painter.drawImage(QRectF(left, top, _COARSE * width, _COARSE * height), image)
+
+
+def _on_screen(outlines: list[FloatArray], lens: Lens) -> list[FloatArray]:
+    """Their pixels on the floor, all projected together unless some lie behind the eye."""
+    if not outlines:
+        return []
+    points = np.concatenate(outlines)
+    eye = lens.eye_points(np.column_stack([points, np.zeros(len(points))]))
+    ends = np.cumsum([len(outline) for outline in outlines])[:-1]
+    if lens.before(eye).all():
+        return np.split(lens.pixels(eye), ends)
+    return [pixels for piece in np.split(eye, ends) if len(pixels := clipped_polygon(piece, lens)) > 2]
+
+
+def _region(outlines: list[FloatArray], lens: Lens) -> tuple[float, float, int, int] | None:
+    """Left, top [pixels], width and height [shadow pixels] of what is to be painted, with room for the blur."""
+    if not outlines:
+        return None
+    points = np.concatenate(outlines)
+    room = _COARSE * (2 * _BLUR + 1)
+    left, top = np.maximum(np.floor(points.min(axis=0) - room), -room).tolist()
+    right, bottom = np.minimum(points.max(axis=0) + room, (lens.width + room, lens.height + room)).tolist()
+    if right <= left or bottom <= top:
+        return None
+    return left, top, int((right - left) / _COARSE) + 1, int((bottom - top) / _COARSE) + 1
+
+
+def _fill(mask: NDArray[np.uint8], width: int, height: int, outlines: list[FloatArray]) -> None:
+    image = QImage(mask.data, width, height, mask.shape[1], QImage.Format.Format_Alpha8)
+    painter = QPainter(image)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(qcolor(color.faded(1.0 / len(_SOFTNESS))))
-    for width in _SOFTNESS:
-        path = QPainterPath()
-        path.setFillRule(Qt.FillRule.WindingFill)
-        for item in solids:
-            _add(path, _footprint(item, width), lens)
-        painter.drawPath(path)
+    painter.setBrush(Qt.GlobalColor.black)
+    for outline in outlines:
+        painter.drawPolygon(polygon(outline))
+    painter.end()
 
 
-def _add(path: QPainterPath, footprint: FloatArray, lens: Lens) -> None:
-    on_floor = np.column_stack([footprint, np.zeros(len(footprint))])
-    if np.isfinite(on_floor).all():
-        path.addPolygon(polygon(clipped_polygon(lens.eye_points(on_floor), lens)))
-        path.closeSubpath()
+def _blurred(mask: NDArray[np.uint8]) -> FloatArray:
+    """A box blur, twice, along both directions; 0 … 1."""
+    values = mask / 255.0
+    for axis in (0, 1, 0, 1):
+        values = _box_blurred(values, axis)
+    return values
 
 
-def _footprint(item: Capsule | Box, width: float) -> FloatArray:
-    """(k, 2) the convex outline of a solid seen from above [m], counter-clockwise."""
-    if isinstance(item, Capsule):
-        discs = [end[:2] + width * item.radius * _CIRCLE for end in (item.start, item.end)]
-        return _convex_hull(np.concatenate(discs))
-    corners = (0.5 * BOX_CORNERS * item.size) @ item.T_base_box[:3, :3].T + item.T_base_box[:3, 3]
-    centre = item.T_base_box[:2, 3]
-    return _convex_hull(centre + (0.75 + 0.25 * width) * (corners[:, :2] - centre))
+def _box_blurred(values: FloatArray, axis: int) -> FloatArray:
+    room = [(0, 0), (0, 0)]
+    room[axis] = (_BLUR + 1, _BLUR)
+    sums = np.cumsum(np.pad(values, room), axis=axis)
+    size = values.shape[axis]
+    after = np.take(sums, range(2 * _BLUR + 1, 2 * _BLUR + 1 + size), axis=axis)
+    before = np.take(sums, range(size), axis=axis)
+    return np.asarray((after - before) / (2 * _BLUR + 1))
 
 
-def _convex_hull(points: FloatArray) -> FloatArray:
-    """Andrew's monotone chain."""
-    ordered = sorted(map(tuple, points.tolist()))
-    return np.array(_chain(ordered) + _chain(ordered[::-1]))
+def _tinted(values: FloatArray, color: Color) -> NDArray[np.uint8]:
+    """(h, w, 4) blue, green, red, alpha; premultiplied."""
+    alpha = color.alpha * values[..., None]
+    red, green, blue = color[:3]
+    return np.asarray(np.rint(255.0 * alpha * np.array([blue, green, red, 1.0])), dtype=np.uint8)
 
 
-def _chain(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
-    chain: list[tuple[float, ...]] = []
-    for x, y in points:
-        while len(chain) > 1 and _turn(chain[-2], chain[-1], (x, y)) <= 0.0:
-            chain.pop()
-        chain.append((x, y))
-    return chain[:-1]
+def _footprints(solid: Capsule | Box) -> list[FloatArray]:
+    """Outlines (k, 2) that together cover what is under a solid [m]."""
+    if isinstance(solid, Capsule):
+        return [_capsule_footprint(solid)]
+    rotation = solid.T_base_box[:3, :3]
+    corners = (0.5 * BOX_CORNERS * solid.size) @ rotation.T + solid.T_base_box[:3, 3]
+    upper = _FACES[np.arange(3), (rotation[2] >= 0.0).astype(int)]
+    return list(corners[upper, :2])
 
 
-def _turn(a: tuple[float, ...], b: tuple[float, ...], c: tuple[float, ...]) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+def _capsule_footprint(capsule: Capsule) -> FloatArray:
+    span = (capsule.end - capsule.start)[:2]
+    angles = np.arctan2(span[1], span[0]) + _HALF_TURN
+    cap = capsule.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return np.concatenate([capsule.end[:2] + cap, capsule.start[:2] - cap])

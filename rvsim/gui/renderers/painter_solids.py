@@ -1,207 +1,164 @@
-"""Capsules and boxes as shaded shapes on the flat picture, cut into pieces so that they can be sorted by depth."""
+"""Capsules and boxes as rays meet them: which one each pixel shows, and how deep. Plain arithmetic, no Qt.
+
+Each solid answers for many rays at once, in coordinates about its own centre, so that single precision is enough. A ray
+passes a pixel at the depth of that centre in `x`, `y` [m] and moves by `dx`, `dy` for each metre of depth (0 where the
+projection is parallel). Rays of a grid are rows times columns: x (1, w), y (h, 1); scattered ones are x (n,), y (n,).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QBrush, QLinearGradient, QPainter, QPen, QPolygonF, QRadialGradient, QTransform
 
-from rvsim.gui.renderers.painter_ink import Stroke, polygon
-from rvsim.gui.renderers.painter_lens import Lens, Seen, clipped_polygon
-from rvsim.gui.renderers.painter_light import LIGHT, brightness, lit, lit_stops
+from rvsim.gui.renderers.painter_lens import Lens, Seen
+from rvsim.gui.renderers.painter_light import HALFWAY, LIGHT, UPWARD, PixelArray, SingleArray, lit
 from rvsim.scene import Box, Capsule, Color
 
-FloatArray = NDArray[np.float64]
-
 Solid = Capsule | Box
+FloatArray = NDArray[np.float64]
+ByteArray = NDArray[np.uint8]
 
-_MOST_PIECES = 8
-_ARC = np.linspace(0.0, 1.0, 13)
-_ACROSS = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 11))  # offsets over the width, −1 … 1, closer at the rims
-_OVERLAP = 0.6  # [pixels] neighbouring pieces share this much, so that no seam shows
-# (6, 4) corners of each face, going around it, and (6, 3) its outward normal in the box's axes.
-_FACES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
-_FACE_NORMALS = np.array([[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]], dtype=np.float64)
+_FLAT_SHINE = np.float32(0.6)  # a flat face that mirrors the light would be white all over
+FACES = 3  # a solid has this many surface numbers; a box shows at most three faces, a capsule uses the first
 
 
-class _Tube(NamedTuple):
-    """A capsule before the eye: ends (2, 3), its axis, the screen's sideways direction and the normal to the viewer."""
+class Rays(NamedTuple):
+    """Rays about a depth: where they are there (x, y) [m], and how they spread (dx, dy)."""
 
-    ends: FloatArray
-    radius: float
+    x: SingleArray
+    y: SingleArray
+    dx: SingleArray
+    dy: SingleArray
+
+
+class Hits(NamedTuple):
+    """For each ray the depth beyond the solid's centre [m], inf where it misses, and the face 0 … 2 that it meets."""
+
+    depth: SingleArray
+    face: ByteArray | int
+
+
+@dataclass(frozen=True, eq=False)
+class RoundBody:
+    """A capsule: `axis` (3,) from end to end."""
+
+    centre: FloatArray
     color: Color
-    axis: FloatArray  # (3,) unit, eye axes
-    side: FloatArray  # (3,) unit, in the picture plane, at right angles to the axis
-    front: FloatArray  # (3,) unit, at right angles to both, towards the viewer
+    axis: SingleArray
+    radius: float
+
+    def hits(self, rays: Rays) -> Hits:
+        """The cylinder first, then the ball at the end that the ray passes."""
+        x, y, dx, dy = rays
+        ax, ay, az = self.axis.tolist()
+        length2, radius2 = ax * ax + ay * ay + az * az, self.radius**2
+        along_ray = (ax * dx + az) + ay * dy
+        along = (ax * x + 0.5 * length2) + ay * y  # from the first end, times the length
+        spread2 = (dx * dx + 1.0) + dy * dy
+        from_end = 0.5 * along_ray + (x * dx + y * dy)
+        gap2 = (x * x + ax * x + 0.25 * length2) + (y * y + ay * y)
+        a = np.maximum(length2 * spread2 - along_ray * along_ray, 1e-6 * length2)
+        b = length2 * from_end - along * along_ray
+        c = length2 * (gap2 - radius2) - along * along
+        inside = b * b - a * c
+        depth = (-b - np.sqrt(np.maximum(inside, 0.0))) / a
+        place = along + depth * along_ray
+        beyond = place >= length2
+        b = from_end - along_ray * beyond
+        c = gap2 - radius2 + (length2 - 2.0 * along) * beyond
+        ball = b * b - spread2 * c
+        on_ball = (-b - np.sqrt(np.maximum(ball, 0.0))) / spread2
+        on_side = (place > 0.0) & ~beyond
+        met = (inside > 0.0) & (on_side | (ball > 0.0))
+        return Hits(np.where(met, np.where(on_side, depth, on_ball), np.float32(np.inf)), 0)
+
+    def pixels(self, rays: Rays, depth: SingleArray) -> PixelArray:
+        """(n,) the pixels of the places that rays (n,) meet at a depth (n,) beyond the centre.
+
+        The normal points away from the nearest point of the axis; only its products with the lights are needed.
+        """
+        point = (rays.x + depth * rays.dx, rays.y + depth * rays.dy, depth)
+        share = np.clip(_dot(self.axis, point) / float(self.axis @ self.axis), -0.5, 0.5)
+        products = (
+            (_dot(light, point) - float(light @ self.axis) * share) / self.radius for light in (LIGHT, HALFWAY, UPWARD)
+        )
+        return lit(self.color, *products)
 
 
-def solid_strokes(seen: Seen[Solid], lens: Lens) -> list[Stroke]:
-    """A solid as the shapes that it shows."""
-    item = seen.item
-    return capsule_strokes(item, seen.eye, lens) if isinstance(item, Capsule) else box_strokes(item, seen.eye, lens)
+@dataclass(frozen=True, eq=False)
+class FlatBody:
+    """A box: rows of `axes` (3, 3) are its edges' directions, `half` (3,) half its edges."""
+
+    centre: FloatArray
+    color: Color
+    axes: SingleArray
+    half: SingleArray
+    outward: SingleArray  # (3,) +1 or −1: on which side of the box the eye is, for each of its axes
+
+    def hits(self, rays: Rays) -> Hits:
+        """Between the three pairs of planes: in through the last, out through the first."""
+        enters, leaves = zip(*(self._slab(rays, k) for k in range(3)), strict=True)
+        enter = np.maximum(np.maximum(enters[0], enters[1]), enters[2])
+        leave = np.minimum(np.minimum(leaves[0], leaves[1]), leaves[2])
+        face = (enters[1] == enter).astype(np.uint8)
+        face[enters[2] == enter] = 2
+        return Hits(np.where(enter < leave, enter, np.float32(np.inf)), face)
+
+    def _slab(self, rays: Rays, k: int) -> tuple[SingleArray, SingleArray]:
+        ax, ay, az = self.axes[k].tolist()
+        half = float(self.half[k])
+        speed = (ax * rays.dx + az) + ay * rays.dy
+        speed = 1.0 / np.where(np.abs(speed) < 1e-7, np.float32(1e-7), speed)
+        middle = (ax * rays.x + ay * rays.y) * speed
+        reach = half * np.abs(speed)
+        return -middle - reach, reach - middle
+
+    def face_pixels(self) -> PixelArray:
+        """(3,) the pixel of each face: a flat face has one colour."""
+        normals = self.outward[:, None] * self.axes
+        facing, halfway, upward = (np.asarray(normals @ light, np.float32) for light in (LIGHT, HALFWAY, UPWARD))
+        return lit(self.color, facing, _FLAT_SHINE * halfway, upward)
 
 
-def capsule_strokes(item: Capsule, eye: FloatArray, lens: Lens) -> list[Stroke]:
-    """A capsule with ends eye (2, 3) as shaded pieces."""
-    ends = _before_the_eye(eye, item.radius, lens)
-    if ends is None:
-        return []
-    tube = _tube(ends, item.radius, item.color)
-    count = int(np.clip(np.ceil(np.linalg.norm(ends[1] - ends[0]) / (1.6 * item.radius)), 1, _MOST_PIECES))
-    joints = ends[0] + np.linspace(0.0, 1.0, count + 1)[:, None] * (ends[1] - ends[0])
-    pixels, radii = lens.pixels(joints), item.radius * lens.scale(joints[:, 2])
-    along = _direction(pixels)
-    caps = [_cap_painting(tube, pixels[i], float(radii[i]), along, sign) for i, sign in ((0, -1.0), (-1, 1.0))]
-    body = QBrush(_across_gradient(tube))
-    strokes = []
-    for i in range(count):
-        outline = _piece_outline(pixels[i : i + 2], radii[i : i + 2], along, i == 0, i == count - 1)
-        middle, width = pixels[i : i + 2].mean(axis=0), float(radii[i : i + 2].mean())
-        brush = _placed(body, middle, width, along)
-        paintings = [(outline, brush)] + [caps[0]] * (i == 0) + [caps[1]] * (i == count - 1)
-        strokes.append(Stroke(float(joints[i : i + 2, 2].mean()), _filler(paintings)))
-    return strokes
+Body = RoundBody | FlatBody
 
 
-def _filler(paintings: list[tuple[QPolygonF, QBrush]]) -> Callable[[QPainter], None]:
-    def draw(painter: QPainter) -> None:
-        painter.setPen(Qt.PenStyle.NoPen)
-        for outline, brush in paintings:
-            painter.setBrush(brush)
-            painter.drawPolygon(outline)
-
-    return draw
+def _dot(vector: SingleArray, point: tuple[SingleArray, SingleArray, SingleArray]) -> SingleArray:
+    x, y, z = vector.tolist()
+    return np.asarray(x * point[0] + y * point[1] + z * point[2])
 
 
-def _before_the_eye(eye: FloatArray, radius: float, lens: Lens) -> FloatArray | None:
-    """The part of the axis whose sphere is wholly before the eye."""
-    if not np.isfinite(eye).all():
+def body_of(seen: Seen[Solid], lens: Lens) -> Body:
+    """The solid in eye coordinates."""
+    item, centre = seen.item, seen.eye.mean(axis=0)
+    if isinstance(item, Capsule):
+        return _round_body(item, seen.eye, centre)
+    axes = lens.rotated(item.T_base_box[:3, :3].T)
+    towards_eye = -centre if not lens.orthographic else np.array([0.0, 0.0, -1.0])
+    outward = np.where(axes @ towards_eye >= 0.0, 1.0, -1.0)
+    single = (np.asarray(values, dtype=np.float32) for values in (axes, item.size / 2, outward))
+    return FlatBody(centre, item.color, *single)
+
+
+def _round_body(item: Capsule, eye: FloatArray, centre: FloatArray) -> RoundBody:
+    axis = eye[1] - eye[0]
+    if np.linalg.norm(axis) < 1e-3 * item.radius:  # a ball: any short axis does
+        axis = np.array([1e-3 * item.radius, 0.0, 0.0])
+    return RoundBody(centre, item.color, axis.astype(np.float32), item.radius)
+
+
+def pixel_box(seen: Seen[Solid], lens: Lens) -> tuple[float, float, float, float] | None:
+    """(left, top, right, bottom) that holds the solid's picture; None if it lies behind the eye."""
+    radius = seen.item.radius if isinstance(seen.item, Capsule) else 0.0
+    depth = seen.eye[:, 2] - 1.2 * radius
+    if not (depth > lens.near).any():
         return None
-    nearest = lens.near + radius
-    depth = eye[:, 2]
-    if (depth < nearest).all():
-        return None
-    ends = eye.copy()
-    for i in (0, 1):
-        if depth[i] < nearest:
-            ends[i] += (nearest - depth[i]) / (depth[1 - i] - depth[i]) * (eye[1 - i] - eye[i])
-    return ends
-
-
-def _tube(ends: FloatArray, radius: float, color: Color) -> _Tube:
-    span = ends[1] - ends[0]
-    length = float(np.linalg.norm(span))
-    axis = span / length if length > 1e-9 else np.array([1.0, 0.0, 0.0])
-    flat = float(np.hypot(axis[0], axis[1]))
-    side = np.array([-axis[1], axis[0], 0.0]) / flat if flat > 1e-9 else np.array([0.0, 1.0, 0.0])
-    front = np.cross(side, axis)
-    return _Tube(ends, radius, color, axis, side, front if front[2] < 0.0 else -front)
-
-
-def _direction(pixels: FloatArray) -> FloatArray:
-    """(2,) the unit vector along the projected axis."""
-    span = pixels[-1] - pixels[0]
-    length = float(np.hypot(*span))
-    return span / length if length > 1e-6 else np.array([1.0, 0.0])
-
-
-def _piece_outline(pixels: FloatArray, radii: FloatArray, along: FloatArray, first: bool, last: bool) -> QPolygonF:
-    """The hull of two discs; an end in the middle of the capsule is cut flat."""
-    length = float((pixels[1] - pixels[0]) @ along)
-    tangent = float(np.clip((radii[0] - radii[1]) / max(length, 1e-6), -1.0, 1.0))
-    beta = np.arccos(tangent)
-    far_arc, near_arc = beta + _ARC * (2 * np.pi - 2 * beta), -beta + _ARC * (2 * beta)
-    start = _arc(pixels[0], radii[0], far_arc, along, None if first else tangent, -_OVERLAP)
-    end = _arc(pixels[1], radii[1], near_arc, along, None if last else tangent, _OVERLAP)
-    return polygon(np.concatenate([start, end]))
-
-
-def _arc(
-    centre: FloatArray, radius: float, angles: FloatArray, along: FloatArray, flat: float | None, overlap: float
-) -> FloatArray:
-    forward = np.cos(angles) if flat is None else np.full_like(angles, flat + overlap / max(radius, 1e-6))
-    sideways = np.array([-along[1], along[0]])
-    return np.asarray(centre + radius * (forward[:, None] * along + np.sin(angles)[:, None] * sideways))
-
-
-def _across_gradient(tube: _Tube) -> QLinearGradient:
-    """The shading over the width, from −1 to 1 on the x axis of its own coordinates."""
-    normals = _ACROSS[:, None] * tube.side + np.sqrt(1.0 - _ACROSS**2)[:, None] * tube.front
-    gradient = QLinearGradient(-1.0, 0.0, 1.0, 0.0)
-    gradient.setStops(lit_stops(tube.color, (_ACROSS + 1.0) / 2.0, normals))
-    return gradient
-
-
-def _placed(brush: QBrush, middle: FloatArray, radius: float, along: FloatArray) -> QBrush:
-    """The brush with its x axis laid over the width of a piece: +1 lies on the tube's side."""
-    # The side in eye axes is (−axis_y, axis_x); pixels count downwards, so on the screen it is (along_y, −along_x).
-    x, y = radius * float(along[1]), -radius * float(along[0])
-    placed = QBrush(brush)
-    placed.setTransform(QTransform(x, y, -y, x, float(middle[0]), float(middle[1])))
-    return placed
-
-
-def _cap_painting(
-    tube: _Tube, centre: FloatArray, radius: float, along: FloatArray, sign: float
-) -> tuple[QPolygonF, QBrush]:
-    """The visible part of a round end: a half disc, and the ellipse of its rim added (facing us) or taken away."""
-    angles = np.pi * (_ARC - 0.5)
-    sideways = np.array([-along[1], along[0]])
-    outer = sign * np.cos(angles)[:, None] * along + np.sin(angles)[:, None] * sideways
-    # The rim of the far half of an end is hidden: the crescent between the circle and the ellipse remains.
-    bulge = tube.axis[2] * np.cos(angles)[::-1]
-    inner = bulge[:, None] * along + np.sin(angles)[::-1, None] * sideways
-    return polygon(centre + radius * np.concatenate([outer, inner])), _ball_brush(tube.color, centre, radius)
-
-
-def _ball_brush(color: Color, centre: FloatArray, radius: float) -> QBrush:
-    """The shading of a ball: rings about the spot that faces the light."""
-    towards = LIGHT[:2] / np.hypot(*LIGHT[:2])
-    spot = float(np.hypot(*LIGHT[:2]))
-    places = np.linspace(0.0, 1.0, 9)
-    offsets = spot - places * (spot + 1.0)
-    depth = -np.sqrt(np.maximum(1.0 - offsets**2, 0.0))
-    normals = np.column_stack([offsets[:, None] * towards, depth])
-    x = float(centre[0]) + radius * spot * float(towards[0])
-    y = float(centre[1]) - radius * spot * float(towards[1])
-    gradient = QRadialGradient(x, y, radius * (1.0 + spot))
-    gradient.setStops(lit_stops(color, places, normals))
-    return QBrush(gradient)
-
-
-def box_strokes(item: Box, eye: FloatArray, lens: Lens) -> list[Stroke]:
-    """The faces of a box with corners eye (8, 3) that look at the viewer."""
-    if not np.isfinite(eye).all():
-        return []
-    normals = lens.rotated(_FACE_NORMALS @ item.T_base_box[:3, :3].T)
-    faces = eye[_FACES]
-    centres = faces.mean(axis=1)
-    views = np.broadcast_to([0.0, 0.0, 1.0], (6, 3)) if lens.orthographic else centres
-    shown = np.flatnonzero((normals * views).sum(axis=1) < 0.0)
-    matt, shine = brightness(normals)
-    return [
-        _face_stroke(float(centres[i, 2]), clipped_polygon(faces[i], lens), item.color, float(matt[i]), float(shine[i]))
-        for i in shown
-    ]
-
-
-def _face_stroke(depth: float, pixels: FloatArray, color: Color, matt: float, shine: float) -> Stroke:
-    outline, fill = polygon(pixels), lit(color, matt, 0.3 * shine)
-    edge = QPen(lit(color, 0.86 * matt, 0.0), 1.0)
-    edge.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
-
-    def draw(painter: QPainter) -> None:
-        painter.setPen(edge)
-        painter.setBrush(fill)
-        painter.drawPolygon(outline)
-
-    return Stroke(depth, draw)
-
-
-def box_plate(eye: FloatArray, lens: Lens) -> QPolygonF:
-    """The upper face alone: a floor."""
-    return polygon(clipped_polygon(eye[_FACES[5]], lens))
+    if not (depth > lens.near).all():
+        return 0.0, 0.0, lens.width, lens.height
+    margin = (1.05 * radius * lens.scale(depth))[:, None]
+    left, top = (seen.pixels - margin).min(axis=0).tolist()
+    right, bottom = (seen.pixels + margin).max(axis=0).tolist()
+    return left, top, right, bottom
