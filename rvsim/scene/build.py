@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from rvsim.kinematics import link_transforms
 from rvsim.robot import Robot
-from rvsim.scene.floor import floor_items
+from rvsim.scene.floor import Extent, floor_items
 from rvsim.scene.palette import ScenePalette
 from rvsim.scene.points import frames
 from rvsim.scene.primitives import Item, Labels, Scene, Triads
-from rvsim.scene.solid import solid_items
+from rvsim.scene.solid import body_points, solid_items
 from rvsim.scene.stick import LINK_WIDTH, Pose, joint_labels, posed, stick_items
 
 FloatArray = NDArray[np.float64]
@@ -24,7 +24,8 @@ Look = Literal["stick", "solid", "both"]
 LOOKS: tuple[Look, ...] = ("stick", "solid", "both")
 
 _SEE_THROUGH = 0.45  # how opaque the body is when the figure inside is to be seen as well
-_SAMPLES = 2048
+_SAMPLES = 1024
+_BELOW = 0.08
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ def compose(
 ) -> Scene:
     """The arm at q (n,) on its floor, with more items (paths, trails, ghosts) if given."""
     chosen = options or SceneOptions()
-    floor = floor_items(palette, reach_radius(robot), robot.length_unit) if chosen.floor else ()
+    floor = floor_items(palette, floor_extent(robot), robot.length_unit) if chosen.floor else ()
     arm = arm_items(robot, q, palette, look=chosen.look, frames=chosen.frames, labels=chosen.labels)
     return Scene((*floor, *extras, *arm), palette.background, scene_bounds(robot))
 
@@ -82,19 +83,28 @@ def _triads(pose: Pose, key: str, alpha: float) -> Triads:
 
 @lru_cache(maxsize=32)
 def scene_bounds(robot: Robot) -> FloatArray:
-    """(2, 3) the box that the arm never leaves, floor included [m]: sampled within its limits, the same for each q."""
-    generator = np.random.default_rng(0)
-    spans = np.where(robot.is_revolute, np.pi, robot.size)[:, None] * (-1.0, 1.0)
-    lower, upper = np.where(np.isfinite(robot.limits), robot.limits, spans).T
-    T = link_transforms(robot, generator.uniform(lower, upper, (_SAMPLES, robot.dof)))
-    points = np.concatenate([T[..., :3, 3], (T[:, -1:] @ robot.T_flange_tool)[..., :3, 3]], axis=1).reshape(-1, 3)
-    lower_corner, upper_corner = np.minimum(points.min(axis=0), 0.0), np.maximum(points.max(axis=0), 0.0)
-    margin = 0.03 * float(np.ptp(points, axis=0).max())
-    bounds: FloatArray = np.array([lower_corner - margin, upper_corner + margin])
+    """(2, 3) the box that the arm never leaves, floor included [m]: sampled within its limits, the same for each q.
+
+    Below the floor only a little is shown: an arm without limits could turn there, but stands on a table.
+    """
+    T = link_transforms(robot, _poses(robot))
+    points = np.concatenate([(T[:, -1] @ robot.T_flange_tool)[:, :3, 3], *body_points(robot, T)])
+    points = np.concatenate([T[..., :3, 3].reshape(-1, 3), points, np.zeros((1, 3))])
+    margin = 0.02 * float(np.ptp(points, axis=0).max())
+    bounds: FloatArray = np.array([points.min(axis=0) - margin, points.max(axis=0) + margin])
+    bounds[0, 2] = max(bounds[0, 2], -_BELOW * robot.size)
     bounds.setflags(write=False)
     return bounds
 
 
-def reach_radius(robot: Robot) -> float:
-    """How far from the base axis the floor must go [m]."""
-    return float(np.abs(scene_bounds(robot)[:, :2]).max())
+def _poses(robot: Robot) -> FloatArray:
+    """(m, n) poses spread over what the joints can do; the same each time."""
+    spans = np.where(robot.is_revolute, np.pi, robot.size)[:, None] * (-1.0, 1.0)
+    lower, upper = np.where(np.isfinite(robot.limits), robot.limits, spans).T
+    return np.random.default_rng(0).uniform(lower, upper, (_SAMPLES, robot.dof))
+
+
+def floor_extent(robot: Robot) -> Extent:
+    """What the floor must cover [m]: everything that the arm reaches over."""
+    (x_min, y_min, _), (x_max, y_max, _) = scene_bounds(robot).tolist()
+    return Extent(x_min, x_max, y_min, y_max)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from rvsim.units import millimetres_from_metres
 
 FloatArray = NDArray[np.float64]
 
+_FIELDS = 8.0  # major fields along the longer side, about
 FLOOR_KEY = "floor"  # an item whose key begins so lies under everything else
 
 
@@ -23,54 +25,73 @@ def nice_step(rough: float) -> float:
     return float(max(factor * power for factor in (1.0, 2.0, 5.0) if factor * power <= rough * (1 + 1e-9)))
 
 
+class Extent(NamedTuple):
+    """The rectangle that the floor must cover [m]."""
+
+    x_min: float
+    x_max: float
+    y_min: float
+    y_max: float
+
+
 @lru_cache(maxsize=16)
-def floor_items(palette: ScenePalette, radius: float, unit: str) -> tuple[Item, ...]:
-    """The floor of an arm that reaches `radius` [m] from the base; `unit` is "millimetre" or "unit".
+def floor_items(palette: ScenePalette, extent: Extent, unit: str) -> tuple[Item, ...]:
+    """The floor under an arm that reaches over `extent` [m]; `unit` is "millimetre" or "unit".
 
     The same arguments give the same objects, so that a renderer draws them again without looking.
     """
-    step = nice_step(radius / 4.0)
-    half = step * math.ceil(radius / step - 1e-9)
+    step = nice_step(max(extent.x_max - extent.x_min, extent.y_max - extent.y_min) / _FIELDS)
+    grid = _rounded_out(extent, step)
     return (
-        _plate(palette, half),
-        Segments(f"{FLOOR_KEY}.minor", _grid(half, step / 2), palette.floor_minor, 1.0),
-        Segments(f"{FLOOR_KEY}.major", _grid(half, step), palette.floor_major, 1.0),
-        Segments(f"{FLOOR_KEY}.axes", _cross(half), palette.floor_axis, 1.2),
-        Labels(f"{FLOOR_KEY}.numbers", _labels(palette, half, step, unit)),
+        _plate(palette, grid),
+        Segments(f"{FLOOR_KEY}.minor", _lines(grid, step / 2), palette.floor_minor, 1.0),
+        Segments(f"{FLOOR_KEY}.major", _lines(grid, step), palette.floor_major, 1.0),
+        Segments(f"{FLOOR_KEY}.axes", _cross(grid), palette.floor_axis, 1.0),
+        Labels(f"{FLOOR_KEY}.numbers", _labels(palette, grid, step, unit)),
     )
 
 
-def _plate(palette: ScenePalette, half: float) -> Box:
-    thickness = 0.01 * half
+def _rounded_out(extent: Extent, step: float) -> Extent:
+    lower = [step * math.floor(value / step + 1e-9) for value in (extent.x_min, extent.y_min)]
+    upper = [step * math.ceil(value / step - 1e-9) for value in (extent.x_max, extent.y_max)]
+    return Extent(lower[0], upper[0], lower[1], upper[1])
+
+
+def _plate(palette: ScenePalette, grid: Extent) -> Box:
+    width, depth = grid.x_max - grid.x_min, grid.y_max - grid.y_min
+    thickness = 0.005 * max(width, depth)
     T = np.eye(4)
-    T[2, 3] = -0.6 * thickness  # just below the grid, so that a depth buffer keeps them apart
-    return Box(f"{FLOOR_KEY}.plate", T, np.array([2 * half, 2 * half, thickness]), palette.floor)
+    # Just below the grid, so that a depth buffer keeps them apart.
+    T[:3, 3] = (grid.x_min + grid.x_max) / 2, (grid.y_min + grid.y_max) / 2, -0.6 * thickness
+    return Box(f"{FLOOR_KEY}.plate", T, np.array([width, depth, thickness]), palette.floor)
 
 
-def _grid(half: float, step: float) -> FloatArray:
-    count = round(half / step)
-    places = step * np.arange(-count, count + 1)
-    edges = np.tile([-half, half], len(places))
-    along = np.repeat(places, 2)
-    level = np.zeros_like(along)
-    return np.concatenate([np.stack([along, edges, level], 1), np.stack([edges, along, level], 1)])
+def _places(lower: float, upper: float, step: float) -> FloatArray:
+    return np.asarray(step * np.arange(round(lower / step), round(upper / step) + 1), dtype=np.float64)
 
 
-def _cross(half: float) -> FloatArray:
-    return np.array([[-half, 0.0, 0.0], [half, 0.0, 0.0], [0.0, -half, 0.0], [0.0, half, 0.0]])
+def _lines(grid: Extent, step: float) -> FloatArray:
+    """Line pieces (2 k, 3) along both directions."""
+    x, y = _places(grid.x_min, grid.x_max, step), _places(grid.y_min, grid.y_max, step)
+    along_y = np.stack([np.repeat(x, 2), np.tile([grid.y_min, grid.y_max], len(x))], axis=1)
+    along_x = np.stack([np.tile([grid.x_min, grid.x_max], len(y)), np.repeat(y, 2)], axis=1)
+    flat = np.concatenate([along_y, along_x])
+    return np.column_stack([flat, np.zeros(len(flat))])
 
 
-def _labels(palette: ScenePalette, half: float, step: float, unit: str) -> tuple[Label, ...]:
-    count = round(half / step)
-    places = [step * index for index in range(-count, count + 1)]
-    edge = half + 0.28 * step
-    muted = palette.muted_text
-    numbers = [_centred((place, -edge, 0.0), _number(place, unit), muted) for place in places]
-    numbers += [_centred((edge, place, 0.0), _number(place, unit), muted) for place in places]
-    name = "mm" if unit == "millimetre" else "unit"
-    beyond = half + 0.85 * step
-    axes = [_centred((0.0, -beyond, 0.0), f"x [{name}]", muted), _centred((beyond, 0.0, 0.0), f"y [{name}]", muted)]
-    return tuple(numbers + axes)
+def _cross(grid: Extent) -> FloatArray:
+    return np.array([[grid.x_min, 0, 0], [grid.x_max, 0, 0], [0, grid.y_min, 0], [0, grid.y_max, 0]], dtype=np.float64)
+
+
+def _labels(palette: ScenePalette, grid: Extent, step: float, unit: str) -> tuple[Label, ...]:
+    """Numbers along the edges that the usual views have in front; the axis' name stands where its last one would."""
+    muted, name = palette.muted_text, "mm" if unit == "millimetre" else "unit"
+    beside_x, beside_y = grid.y_min - 0.3 * step, grid.x_max + 0.3 * step
+    x, y = _places(grid.x_min, grid.x_max, step)[:-1], _places(grid.y_min, grid.y_max, step)[1:-1]
+    numbers = [_centred((place, beside_x, 0.0), _number(place, unit), muted) for place in x.tolist()]
+    numbers += [_centred((beside_y, place, 0.0), _number(place, unit), muted) for place in y.tolist()]
+    ends = ((grid.x_max, beside_x, 0.0), f"x [{name}]"), ((beside_y, grid.y_max, 0.0), f"y [{name}]")
+    return (*numbers, *(_centred(place, text, palette.text) for place, text in ends))
 
 
 def _centred(position: tuple[float, float, float], text: str, color: Color) -> Label:
@@ -80,4 +101,4 @@ def _centred(position: tuple[float, float, float], text: str, color: Color) -> L
 
 def _number(place: float, unit: str) -> str:
     value = millimetres_from_metres(place) if unit == "millimetre" else place
-    return f"{value + 0.0:.6g}".replace("-", "−")
+    return f"{round(value, 9) + 0.0:.6g}".replace("-", "−")

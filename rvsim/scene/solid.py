@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 from numpy.typing import NDArray
 
 from rvsim.robot import BoxShape, CapsuleShape, Robot, Shape
-from rvsim.scene.palette import ScenePalette, mixed
+from rvsim.scene.palette import ScenePalette, contrast, luminance, mixed
 from rvsim.scene.points import frames
 from rvsim.scene.primitives import Box, Capsule, Color, Item
 from rvsim.scene.stick import Pose, link_polylines
 
 FloatArray = NDArray[np.float64]
+
+_LEAST_CONTRAST = 2.2
 
 
 def solid_items(pose: Pose, palette: ScenePalette, key: str, alpha: float) -> list[Item]:
@@ -38,13 +42,38 @@ def _at(T: FloatArray, shape: BoxShape) -> FloatArray:
     return placed
 
 
+def body_points(robot: Robot, T: FloatArray) -> list[FloatArray]:
+    """For each shape (k, 3) points that it never leaves, of link transforms T (m, n + 1, 4, 4) [m]."""
+    placed = np.concatenate([T, T[:, -1:] @ robot.T_flange_tool], axis=1)
+    return [_placed(_corners(shape), placed[:, shape.frame]) for shape in robot.shapes]
+
+
+def _placed(points: FloatArray, T: FloatArray) -> FloatArray:
+    turned = points @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
+    return np.asarray(turned.reshape(-1, 3))
+
+
+def _corners(shape: Shape) -> FloatArray:
+    """Points (k, 3) in the link's frame around a shape."""
+    if isinstance(shape, CapsuleShape):
+        reach = shape.radius * np.concatenate([np.eye(3), -np.eye(3)])
+        return np.concatenate([shape.start + reach, shape.end + reach])
+    signs = np.array(list(product((-0.5, 0.5), repeat=3)))
+    return np.asarray(shape.center + signs * shape.size)
+
+
 def _color(robot: Robot, shape: Shape, palette: ScenePalette) -> Color:
-    """The shape's own colour; without one, that of the joint that moves it."""
+    """The shape's own colour; without one, that of the joint that moves it. Nothing melts into the background."""
     if shape.color:
-        return Color.from_hex(shape.color)
+        return _visible(Color.from_hex(shape.color), palette)
     if shape.frame == 0:
         return palette.body_dark
     return Color.from_hex(robot.joints[min(shape.frame, robot.dof) - 1].color)
+
+
+def _visible(color: Color, palette: ScenePalette) -> Color:
+    faint = contrast(color, palette.background) < _LEAST_CONTRAST and luminance(palette.background) < 0.5
+    return mixed(color, palette.body, 0.28) if faint else color
 
 
 def _shells(pose: Pose, palette: ScenePalette, key: str, alpha: float) -> list[Item]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rvsim.robot import Robot
+from rvsim.scene.floor import FLOOR_KEY
 from rvsim.scene.palette import ScenePalette
 from rvsim.scene.points import frames, gripper_points, joint_axes, joint_points, link_corners
 from rvsim.scene.primitives import Color, Dots, Item, Label, Polyline, Segments
@@ -36,6 +37,7 @@ def posed(robot: Robot, T: FloatArray) -> Pose:
 def stick_items(pose: Pose, palette: ScenePalette, key: str, alpha: float, width: float = LINK_WIDTH) -> list[Item]:
     """The whole figure."""
     lines = [
+        *_shadow(pose, palette, key, alpha, width),
         *_column(pose, palette, key, alpha, width),
         *_rails(pose, palette, key, alpha),
         *_links(pose, palette, key, alpha, width),
@@ -66,6 +68,15 @@ def _links(pose: Pose, palette: ScenePalette, key: str, alpha: float, width: flo
 
 def _joint_color(robot: Robot, joint: int, palette: ScenePalette) -> Color:
     return Color.from_hex(robot.joints[joint].color) if joint >= 0 else palette.stick
+
+
+def _shadow(pose: Pose, palette: ScenePalette, key: str, alpha: float, width: float) -> list[Item]:
+    """What a light right above would throw on the floor; it tells how high the arm is."""
+    if alpha < 1.0:
+        return []
+    points = np.concatenate([points for _, points in link_polylines(pose)])
+    points[:, 2] = 1e-4 * pose.robot.size
+    return [Polyline(f"{FLOOR_KEY}.{key}.shadow", points, palette.shadow, 0.8 * width)]
 
 
 def _column(pose: Pose, palette: ScenePalette, key: str, alpha: float, width: float) -> list[Item]:
