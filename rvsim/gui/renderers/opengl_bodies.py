@@ -33,14 +33,14 @@ class _Placed(NamedTuple):
 def _place(item: Body) -> _Placed | None:
     """Where a body goes; None if it is nowhere."""
     if isinstance(item, Capsule):
+        if not np.isfinite([*item.start, *item.end, item.radius]).all():
+            return None
         matrix, stretch = capsule_transform(item.start, item.end)
-        sizes, shape = np.full(3, item.radius), "capsule"
-    else:
-        matrix, stretch = np.asarray(item.T_base_box, dtype=np.float64), 0.0
-        sizes, shape = np.asarray(item.size, dtype=np.float64), "box"
-    if not (np.isfinite(matrix).all() and np.isfinite(sizes).all()):
+        return _Placed(item, "capsule", to_qt(matrix), (item.radius, item.radius, item.radius), stretch)
+    if not (np.isfinite(item.T_base_box).all() and np.isfinite(item.size).all()):
         return None
-    return _Placed(item, shape, to_qt(matrix), (float(sizes[0]), float(sizes[1]), float(sizes[2])), stretch)
+    x, y, z = item.size.tolist()
+    return _Placed(item, "box", to_qt(item.T_base_box), (x, y, z), 0.0)
 
 
 def unit_bodies() -> dict[str, Vertices]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,14 @@ _SHORTEST_AXIS = 12.0  # [pixels] an axis that points at the eye has no room for
 _MARGIN = 200.0  # [pixels] a text that begins farther outside cannot be seen
 
 
+class _Letters(NamedTuple):
+    """Origins (k, 3) of frames, and the ends (k, 3) and colour of each of the three axes."""
+
+    origins: FloatArray
+    tips: list[FloatArray]
+    colors: list[Color]
+
+
 class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
     """Every label of the scene, and the letters of its frames."""
 
@@ -29,30 +38,32 @@ class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
         super().__init__()
         self._labels: list[Label] = []
         self._places = np.empty((0, 3))
-        self._triads: list[Triads] = []
+        self._letters: list[_Letters] = []
         self._background = Color(1.0, 1.0, 1.0)
 
     def show_items(self, items: Iterable[Labels | Triads], background: Color) -> None:
         """Show exactly the texts of these, with a halo in the background's colour."""
         shown = list(items)
         self._background = background
-        self._labels = [label for item in shown if isinstance(item, Labels) for label in item.labels if label.text]
+        labels = [label for item in shown if isinstance(item, Labels) for label in item.labels]
+        self._labels = [label for label in labels if label.text and np.isfinite(label.position).all()]
         self._places = np.array([label.position for label in self._labels], dtype=np.float64).reshape(-1, 3)
-        self._triads = [item for item in shown if isinstance(item, Triads) and item.letters]
+        self._letters = [_letters(item, background) for item in shown if isinstance(item, Triads) and item.letters]
 
     def paint(self) -> None:
         """Draw the texts that are in front of the eye."""
-        if not self._labels and not self._triads:
+        if not self._labels and not self._letters:
             return
         frame: Frame = self.view().frame
         # What is bound is painted on, be it the screen or a picture beside it.
         device = QOpenGLPaintDevice(round(frame.width * frame.pixel_ratio), round(frame.height * frame.pixel_ratio))
         device.setDevicePixelRatio(frame.pixel_ratio)
         painter = QPainter(device)
-        for item in self._triads:
-            self._draw_letters(painter, frame, item)
-        self._draw_labels(painter, frame)
-        painter.end()
+        try:
+            self._draw_letters(painter, frame)
+            self._draw_labels(painter, frame)
+        finally:
+            painter.end()  # a painter that outlives its picture would crash
 
     def _draw_labels(self, painter: QPainter, frame: Frame) -> None:
         pixels = frame.camera.project(self._places, frame.width, frame.height)
@@ -61,21 +72,29 @@ class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
                 place = (x + label.shift[0], y + label.shift[1])
                 draw_text(painter, place, label.text, label.color, label.size, self._background)
 
-    def _draw_letters(self, painter: QPainter, frame: Frame, item: Triads) -> None:
-        frames = np.asarray(item.T_base_frame, dtype=np.float64).reshape(-1, 4, 4)
-        origins = frame.camera.project(frames[:, :3, 3], frame.width, frame.height)
-        for axis, color in enumerate(axis_colors(self._background)):
-            tips = frame.camera.project(frames[:, :3, 3] + item.length * frames[:, :3, axis], frame.width, frame.height)
-            shown = _seen(origins, frame) & _seen(tips, frame)
-            for place in _beyond(origins[shown, :2], tips[shown, :2]):
-                draw_text(painter, place, "xyz"[axis], color.faded(item.alpha), _LETTER_SIZE, self._background)
+    def _draw_letters(self, painter: QPainter, frame: Frame) -> None:
+        for letters in self._letters:
+            starts = frame.camera.project(letters.origins, frame.width, frame.height)
+            for tips, text, color in zip(letters.tips, "xyz", letters.colors, strict=True):
+                ends = frame.camera.project(tips, frame.width, frame.height)
+                shown = _seen(starts, frame) & _seen(ends, frame)
+                for place in _beyond(starts[shown, :2], ends[shown, :2]):
+                    draw_text(painter, place, text, color, _LETTER_SIZE, self._background)
+
+
+def _letters(item: Triads, background: Color) -> _Letters:
+    frames = np.asarray(item.T_base_frame, dtype=np.float64).reshape(-1, 4, 4)
+    frames = frames[np.isfinite(frames).all(axis=(1, 2))]
+    origins = frames[:, :3, 3]
+    tips = [origins + item.length * frames[:, :3, axis] for axis in range(3)]
+    return _Letters(origins, tips, [color.faded(item.alpha) for color in axis_colors(background)])
 
 
 def _seen(pixels: FloatArray, frame: Frame) -> NDArray[np.bool_]:
-    """(k,) which of the projected points (k, 3) are numbers, before the eye and near the picture."""
+    """(k,) which of the projected points (k, 3) are before the eye and near the picture."""
     outside = np.abs(pixels[:, :2] - (frame.width / 2, frame.height / 2)) - (frame.width / 2, frame.height / 2)
     before = np.full(len(pixels), True) if frame.camera.orthographic else pixels[:, 2] > 0
-    return np.asarray(before & np.isfinite(pixels).all(axis=1) & (outside < _MARGIN).all(axis=1))
+    return np.asarray(before & (outside < _MARGIN).all(axis=1))
 
 
 def _beyond(starts: FloatArray, tips: FloatArray) -> list[tuple[float, float]]:

@@ -79,7 +79,9 @@ def _chain(points: FloatArray) -> Float32Array:
     if len(points) < 2:
         return np.empty((0, STROKE_FLOATS), dtype=np.float32)
     padded = np.concatenate([points[:1], points, points[-1:]])
-    lengths = np.nan_to_num(np.linalg.norm(np.diff(points, axis=0), axis=1))
+    with np.errstate(invalid="ignore"):  # from infinity to infinity
+        lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    lengths = np.where(np.isfinite(lengths), lengths, 0.0)
     so_far = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
     return _vertices(padded[:-3], padded[1:-2], padded[2:-1], padded[3:], so_far)
 
