@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -56,16 +58,14 @@ _LINES: dict[str, tuple[_Row, ...]] = {
     "cylindrical": (_Row((320, -250, 220), (320, 250, 420), "free"),),
     "cartesian": (_Row((50, 50, 50), (550, 350, 220), "free"),),
 }
-# Directions and lengths that are tried for an arm of one's own, through the tool's place at home.
-_TRIED = tuple(
-    np.array(direction) * length
-    for length in (0.3, 0.15, 0.06, 0.02)
-    for direction in ((0.0, 1.0, 0.3), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
-)
+# Half lengths [sizes of the arm] and directions that are tried for an arm of one's own.
+_HALF_LENGTHS = (0.3, 0.15, 0.06, 0.02)
+_DIRECTIONS = ((0.0, 1.0, 0.3), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+_ORIENTATIONS: tuple[PathOrientation, ...] = ("keep", "free")
 
 
 def line_presets(robot: Robot) -> tuple[LinePreset, ...]:
-    """The lines offered for an arm, the one that succeeds first; for an arm of one's own, a line through its home."""
+    """The lines offered for an arm, the one that succeeds first; for an arm of one's own, one found by trying."""
     rows = _LINES.get(robot.name)
     return tuple(map(_preset, rows)) if rows else (_found_line(robot),)
 
@@ -82,15 +82,22 @@ def _preset(row: _Row) -> LinePreset:
 
 
 def _found_line(robot: Robot) -> LinePreset:
-    """The longest of a few lines through the tool's place at home that the arm can draw; else one to that place."""
-    place = forward_kinematics(robot, robot.home)[:3, 3]
-    for half in _TRIED:
-        start, end = place - half * robot.size, place + half * robot.size
-        for orientation in ("keep", "free"):
-            preset = LinePreset("through-home", "Through home", start, end, 0.02, orientation)
-            if track(robot, preset_path(robot, preset), near=robot.home).complete:
-                return preset
-    return LinePreset("through-home", "Through home", place, place, 0.5, "keep")
+    """The longest of a few lines about the tool's place at home, or in mid-range; else one that stays at home."""
+    home, middle = (forward_kinematics(robot, q)[:3, 3] for q in (robot.home, _mid_range(robot)))
+    for length, place, direction, orientation in product(_HALF_LENGTHS, (home, middle), _DIRECTIONS, _ORIENTATIONS):
+        half = length * robot.size * np.array(direction)
+        preset = LinePreset("own", "About its home", place - half, place + half, 0.02, orientation)
+        tracking = track(robot, preset_path(robot, preset), near=robot.home)
+        if tracking.complete and not tracking.jumps:
+            return preset
+    return LinePreset("own", "At its home", home, home, 0.5, "keep")
+
+
+def _mid_range(robot: Robot) -> FloatArray:
+    """(n,) every joint halfway between its limits, at home where it has none."""
+    bounded = [math.isfinite(joint.lower) and math.isfinite(joint.upper) for joint in robot.joints]
+    finite = np.where(np.isfinite(robot.limits), robot.limits, 0.0)
+    return np.where(bounded, finite.mean(axis=1), robot.home)
 
 
 def preset_path(robot: Robot, preset: LinePreset) -> Path:

@@ -34,23 +34,31 @@ def read_path(file: FilePath | str) -> Path:
         OSError: the file cannot be read.
     """
     path = FilePath(file)
-    rows = _rows(path)
-    columns = _header(path, rows[0])
-    if columns is not None:
-        rows = rows[1:]
-    if not rows:
-        raise PathFileError(path, "the file", "a header only", "at least one row of x, y, z in millimetres")
-    points_mm = [_point(path, row, columns or (0, 1, 2)) for row in rows]
-    return through_points(metres_from_millimetres(points_mm), name=path.name)
-
-
-def _rows(path: FilePath) -> list[_Row]:
     if path.stat().st_size > _LARGEST_BYTES:
         raise PathFileError(path, "the file", f"{path.stat().st_size} bytes", f"at most {_LARGEST_BYTES}")
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise PathFileError(path, "the file", "bytes that are no text", "a CSV file in UTF-8") from None
+    return through_points(metres_from_millimetres(points_mm_of(path, text)), name=path.name)
+
+
+def points_mm_of(path: FilePath, text: str) -> list[tuple[float, ...]]:
+    """The points x, y, z in millimetres that the text of a CSV file means; `path` is for messages.
+
+    Raises:
+        PathFileError: it means none.
+    """
+    rows = _rows(path, text)
+    columns = _header(path, rows[0])
+    if columns is not None:
+        rows = rows[1:]
+    if not rows:
+        raise PathFileError(path, "the file", "a header only", "at least one row of x, y, z in millimetres")
+    return [_point(path, row, columns or (0, 1, 2)) for row in rows]
+
+
+def _rows(path: FilePath, text: str) -> list[_Row]:
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if _counts(line)]
     if not lines:
         raise PathFileError(path, "the file", "nothing", "rows of x, y, z in millimetres")

@@ -20,7 +20,7 @@ from rvsim.robot.arrays import FloatArray
 _PITCH_STEP = np.radians(1.5)
 # Of all sampled orientations and branches so many are kept for the choice; their number enters it squared.
 _KEPT = 48
-_SAME_PLACE = 1e-9
+_SAME_PLACE = 1e-7
 
 
 def branches_on(robot: Robot, path: Path, near: FloatArray) -> FloatArray:
@@ -33,11 +33,17 @@ def branches_on(robot: Robot, path: Path, near: FloatArray) -> FloatArray:
         NoClosedFormError: the arm has no closed form.
     """
     if path.rotations is not None or robot.dof < 4:
-        return inverse_kinematics_batch(robot, path.poses())
+        return _on_the_points(robot, inverse_kinematics_batch(robot, path.poses()), path.points)
     q = _free(robot, path.points, near)
     if _last_joint_only_turns(robot):
         q[..., -1] = np.where(np.isnan(q[..., -1]), np.nan, near[-1])
-    return q
+    return _on_the_points(robot, q, path.points)
+
+
+def _on_the_points(robot: Robot, q: FloatArray, points: FloatArray) -> FloatArray:
+    """Branches q (m, s, n), NaN rows where they miss their point: a planar arm's own task does not ask for z."""
+    missed = np.linalg.norm(forward_kinematics(robot, q)[..., :3, 3] - points[:, None], axis=-1, keepdims=True)
+    return np.where(missed < _SAME_PLACE * robot.size, q, np.nan)
 
 
 def _free(robot: Robot, points: FloatArray, near: FloatArray) -> FloatArray:

@@ -212,3 +212,9 @@ def test_a_path_of_one_point_and_one_that_stands_still(rv_m1: Robot) -> None:
 def test_a_wrong_near_is_told(rv_m1: Robot) -> None:
     with pytest.raises(ValueError, match="near must have the shape"):
         track(rv_m1, through_points(drawings.letter_flat()), near=[0.0, 0.0])
+
+
+def test_a_planar_arm_does_not_pretend_to_leave_its_plane() -> None:
+    tracking = track(load_robot("planar"), line_path((0.3, 0.0, 0.10), (0.3, 0.0, 0.14), 5, None))
+    assert reached_indices(tracking) == [2]
+    assert {point.kind for point in tracking.unreached} == {"reach"}

@@ -1,0 +1,47 @@
+"""The lines that are offered: the first one of every arm can be drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rvsim import load_robot, robot_names
+from rvsim.lab import default_experiment, line_of, line_presets, named_path
+from rvsim.motion import track
+
+ELEVEN = robot_names()
+
+
+@pytest.mark.parametrize("name", ELEVEN)
+def test_the_first_line_of_every_arm_is_drawn_whole_within_its_limits_and_from_home(name: str) -> None:
+    robot = load_robot(name)
+    experiment = default_experiment(robot)
+    tracking = track(robot, line_of(robot, experiment.line), near=experiment.q)
+    assert tracking.complete
+    assert not tracking.jumps
+    assert tracking.max_deviation is not None
+    assert tracking.max_deviation < 1e-14 * max(robot.size, 1.0)
+
+
+@pytest.mark.parametrize("name", ELEVEN)
+def test_the_star_of_every_arm_is_drawn_whole(name: str) -> None:
+    robot = load_robot(name)
+    tracking = track(robot, named_path("star", robot))
+    assert tracking.complete
+    assert not tracking.jumps
+
+
+def test_source_000s_own_line_is_a_preset_beside_it() -> None:
+    within, source = line_presets(load_robot("rv-m1"))
+    assert within.name == "within-limits"
+    assert np.allclose([source.start, source.end], [[0.11, 0.0, 0.13], [0.23, 0.0, 0.333]])
+    assert source.task().samples == 11
+
+
+@pytest.mark.parametrize("name", ["rv-m1", "al5b", "ur5e", "rrrp", "scara", "articulated"])
+def test_an_arm_of_ones_own_gets_a_line_that_it_can_draw(name: str) -> None:
+    robot = load_robot(name).renamed("mine", "Mine")
+    (preset,) = line_presets(robot)
+    task = default_experiment(robot).line
+    assert track(robot, line_of(robot, task)).complete
+    assert np.linalg.norm(preset.end - preset.start) > 0.05 * robot.size

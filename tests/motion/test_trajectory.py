@@ -1,0 +1,123 @@
+"""Trajectories: the arm never jumps, waits where it must, passes every reached point, and heeds its joints' speeds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rvsim import load_robot
+from rvsim.lab import named_path
+from rvsim.motion import Tracking, Trajectory, joint_move, track, trajectory_of
+from rvsim.motion.trajectory import Stretch
+
+CASES = [
+    ("rv-m1", "letter-board"),
+    ("rv-m1", "letter-scaled"),
+    ("ur5e", "ellipse"),
+    ("rrrp", "spiral"),
+    ("scara", "star"),
+]
+
+
+def tracked(robot: str, path: str) -> Tracking:
+    arm = load_robot(robot)
+    return track(arm, named_path(path, arm))
+
+
+def played(robot: str, path: str) -> tuple[Tracking, Trajectory]:
+    tracking = tracked(robot, path)
+    trajectory = trajectory_of(tracking, tracking.robot.home)
+    assert trajectory is not None
+    return tracking, trajectory
+
+
+@pytest.mark.parametrize(("robot", "path"), CASES)
+def test_no_joint_jumps_or_exceeds_its_speed(robot: str, path: str) -> None:
+    tracking, trajectory = played(robot, path)
+    times = np.linspace(0.0, trajectory.duration, 4001)
+    speeds = np.abs(np.diff(trajectory.q(times), axis=0)) / np.diff(times)[:, None]
+    fastest = [joint.max_speed.value for joint in tracking.robot.joints if joint.max_speed is not None]
+    assert len(fastest) == tracking.robot.dof
+    assert np.all(speeds <= np.array(fastest) * (1.0 + 1e-9))
+
+
+@pytest.mark.parametrize(("robot", "path"), CASES)
+def test_it_begins_where_the_arm_is_and_passes_every_reached_point_in_order(robot: str, path: str) -> None:
+    tracking, trajectory = played(robot, path)
+    assert np.array_equal(trajectory.q(0.0), tracking.robot.home)
+    knots = np.concatenate([stretch.q for stretch in trajectory.stretches])
+    progress = np.concatenate([stretch.progress for stretch in trajectory.stretches])
+    for index in np.flatnonzero(tracking.reached):
+        assert (knots[progress == index] == tracking.q[index]).all(axis=1).any()
+    assert np.all(np.diff(progress) >= 0.0)
+    assert progress[-1] == tracking.samples - 1
+    assert trajectory.path_index(trajectory.duration) == tracking.samples - 1
+
+
+def test_over_an_unreached_stretch_the_arm_waits_at_the_last_reached_point() -> None:
+    tracking, trajectory = played("ur5e", "ellipse")
+    times = np.linspace(0.0, trajectory.duration, 3001)
+    on_path = [t for t in times if trajectory.phase(t) == "path"]
+    gap = [t for t in on_path if 76.0 < trajectory.path_index(t) < 145.0]
+    assert len(gap) > 100
+    assert np.array_equal(trajectory.q(gap), np.tile(tracking.q[75], (len(gap), 1)))
+
+
+def test_where_the_path_begins_unreached_the_arm_waits_at_its_first_reached_point() -> None:
+    arm = load_robot("rv-m1")
+    tracking = track(arm, named_path("line", arm, samples=11, start=(0.11, 0.0, 0.13), end=(0.23, 0.0, 0.333)))
+    trajectory = trajectory_of(tracking, arm.home)
+    assert trajectory is not None
+    phases = [stretch.phase for stretch in trajectory.stretches]
+    assert phases == ["approach", "path", "path", "path"]
+    wait, _, rest = trajectory.stretches[1:]
+    assert wait.progress.tolist() == [0.0, 6.0]
+    assert np.array_equal(wait.q[0], tracking.q[6])
+    assert rest.progress.tolist() == [9.0, 10.0]
+    assert np.array_equal(trajectory.q(trajectory.duration), tracking.q[9])
+
+
+def test_nothing_reached_is_no_trajectory() -> None:
+    assert trajectory_of(tracked("rv-m1", "letter-raw"), np.zeros(5)) is None
+
+
+def test_every_stretch_begins_and_ends_at_rest() -> None:
+    _, trajectory = played("rv-m1", "letter-scaled")
+    step = 1e-4
+    for edge in trajectory.starts:
+        change = trajectory.q(edge + step) - trajectory.q(edge - step)
+        assert np.abs(change).max() < 1e-6
+
+
+def test_time_is_clamped_and_a_wish_for_a_duration_is_heeded_where_the_joints_allow() -> None:
+    tracking = tracked("rv-m1", "letter-board")
+    slow = trajectory_of(tracking, tracking.robot.home, path_seconds=40.0, approach_seconds=5.0)
+    fast = trajectory_of(tracking, tracking.robot.home, path_seconds=1e-3, approach_seconds=1e-3)
+    assert slow is not None
+    assert fast is not None
+    assert slow.duration == pytest.approx(45.0)
+    assert 1.0 < fast.duration < 10.0
+    assert np.array_equal(slow.q([-1.0, 99.0]), [tracking.robot.home, tracking.q[-1]])
+    assert slow.phase(-1.0) == "approach"
+    assert slow.path_index(99.0) == 49.0
+
+
+def test_a_joint_move_goes_straight_in_joint_space_all_joints_together() -> None:
+    arm = load_robot("rv-m1")
+    q0, q1 = arm.home, np.radians([30.0, 40.0, -50.0, 20.0, 60.0])
+    move = joint_move(arm, q0, q1)
+    part = (move.q(np.linspace(0.0, move.duration, 50)) - q0) / (q1 - q0)
+    assert np.allclose(part, part[:, :1], atol=1e-12)
+    assert np.array_equal(move.q(move.duration), q1)
+    assert np.allclose(move.q(move.duration / 2), (q0 + q1) / 2)
+    assert joint_move(arm, q0, q0).duration > 0.0
+    assert joint_move(arm, q0, q1, seconds=9.0).duration == 9.0
+
+
+def test_stretches_must_meet() -> None:
+    ends = [np.array([[0.0], [1.0]]), np.array([[2.0], [3.0]])]
+    stretches = [Stretch(1.0, np.array([0.0, 1.0]), q, np.array([0.0, 1.0])) for q in ends]
+    with pytest.raises(ValueError, match="must begin in the pose"):
+        Trajectory(tuple(stretches))
+    with pytest.raises(ValueError, match="at least 1"):
+        Trajectory(())
