@@ -71,6 +71,7 @@ class RollAndExtend(ClosedForm):
         """Whether some branch brings the tool there with the roll at 0."""
         return not bool(np.isnan(self.solve_place(place[:, None], 0.0, 0.0)).all())
 
+    @np.errstate(divide="ignore", invalid="ignore")
     def solve_place(self, place: FloatArray, theta3: float, free: float) -> FloatArray:
         """Variables of the normal form (4, 4, m) that bring the tool to places (3, m) in frame 0, the roll given."""
         chain, tip = self.chain, self.chain.T_n_tool[:3, 3]

@@ -42,31 +42,38 @@ def branches_of(robot: Robot, found: Candidates, here: FloatArray) -> list[Branc
     """The candidates that exist, are right and are not the double of another."""
     rows = np.flatnonzero(~np.isnan(found.q).any(axis=1))
     q = _polished(robot, found.q[rows], found)
-    residual = _residuals(robot, q, found)
-    kept = [i for i in _singles(robot, q, residual) if residual[i] <= RESIDUAL]
-    q, residual = q[kept], residual[kept]
-    copies = limit_copies(robot, q, here)
-    manipulability = np.linalg.svd(jacobian(robot, q), compute_uv=False).prod(axis=-1)
-    distance = np.abs(copies.q - here).max(axis=1, initial=0.0)
+    residual, copies = _residuals(robot, q, found), limit_copies(robot, q, here)
+    right = np.flatnonzero(residual <= RESIDUAL)
+    # Of doubles, at a straight elbow for instance, one within the limits stands for both.
+    right = right[np.lexsort((residual[right], ~copies.within[right]))]
     return [
-        Branch(
-            q=copies.q[i],
-            label=found.labels[rows[kept[i]]],
-            within_limits=bool(copies.within[i]),
-            limit_margin=limit_margins(robot, copies.q[i]),
-            residual=float(residual[i]),
-            manipulability=float(manipulability[i]),
-            distance=float(distance[i]),
-            continuum=is_continuum(robot, q[i], found.entries),
+        _branch(
+            robot, found, found.labels[rows[i]], copies.q[i], float(residual[i]), here, within=bool(copies.within[i])
         )
-        for i in range(len(kept))
+        for i in _singles(robot, q, right.tolist())
     ]
 
 
-def _singles(robot: Robot, q: FloatArray, residual: FloatArray) -> list[int]:
-    """Indices of the branches (b, n) without doubles; of doubles the one with the least residual."""
+def _branch(
+    robot: Robot, found: Candidates, label: str, q: FloatArray, residual: float, here: FloatArray, *, within: bool
+) -> Branch:
+    sigma = np.linalg.svd(jacobian(robot, q), compute_uv=False)
+    return Branch(
+        q=q,
+        label=label,
+        within_limits=within,
+        limit_margin=limit_margins(robot, q),
+        residual=residual,
+        manipulability=float(sigma.prod()),
+        distance=float(np.abs(q - here).max()),
+        continuum=is_continuum(robot, q, found.entries),
+    )
+
+
+def _singles(robot: Robot, q: FloatArray, preferred: list[int]) -> list[int]:
+    """Indices of the branches (b, n) without doubles, of doubles the preferred one, in the order of the labels."""
     kept: list[int] = []
-    for i in np.argsort(residual, kind="stable").tolist():
+    for i in preferred:
         difference = q[kept] - q[i]
         difference -= np.where(robot.is_revolute, TURN * np.rint(difference / TURN), 0.0)
         if not (np.abs(difference).max(axis=1, initial=0.0) <= _SAME).any():
