@@ -32,7 +32,7 @@ _OFF_SCREEN = {"QT_QPA_PLATFORM": "offscreen"}
 
 def run(arguments: list[str]) -> int:
     """Start rvsim; without a screen and without a wish, do its main job as a picture and a table."""
-    dev_system.provide((*dev_system.QT, *dev_system.window_needs(os.environ)))
+    dev_system.provide((*dev_environment.needs(), *dev_system.QT, *dev_system.window_needs(os.environ)))
     python = str(dev_environment.ensure())
     if dev_screen.has_screen(os.environ):
         return _become([python, "-m", "rvsim", *arguments])
@@ -71,7 +71,8 @@ def bench(arguments: list[str]) -> int:
     names, options = _split(arguments)
     scripts = _scripts("benchmarks", "bench", names)
     windows = [script for script in scripts if script.stem in _WINDOW_BENCHMARKS]
-    dev_system.provide((*dev_system.QT, *(dev_system.VIRTUAL_SCREEN if windows else ())))
+    screen = dev_system.VIRTUAL_SCREEN if windows else ()
+    dev_system.provide((*dev_environment.needs(BENCH), *dev_system.QT, *screen))
     python = str(dev_environment.ensure(BENCH))
     harness = ROOT / "tests" / "benchmarks" / "harness.py"
     with _one_core():
@@ -104,7 +105,7 @@ def soak(arguments: list[str]) -> int:
     """Run the long random tests one after the other."""
     names, options = _split(arguments)
     scripts = _scripts("soak", "soak", names)
-    dev_system.provide(dev_system.QT)
+    dev_system.provide((*dev_environment.needs(), *dev_system.QT))
     python = str(dev_environment.ensure(extras=("test",)))
     return _run_each(python, scripts, options, dev_environment.child_environment(**_OFF_SCREEN))
 

@@ -96,6 +96,11 @@ def child_environment(**changes: str) -> dict[str, str]:
     return {**kept, **changes}
 
 
+def needs(kind: Kind = APP) -> tuple[dev_system.Need, ...]:
+    """What the system must bring to make an environment of this kind; nothing once it is there."""
+    return () if python_of(ROOT / kind.folder).exists() else dev_system.VENV
+
+
 def ensure(kind: Kind = APP, extras: tuple[str, ...] = ()) -> Path:
     """The interpreter of an environment of this kind that has these extras, made now if need be."""
     folder = ROOT / kind.folder

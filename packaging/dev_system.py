@@ -106,8 +106,8 @@ def _has_renamed_glib(system: Mapping[str, str]) -> bool:
 
 
 def apt_line(packages: Iterable[str]) -> str:
-    """The one line to type for somebody who is not root."""
-    return "sudo apt-get install --no-install-recommends " + " ".join(packages)
+    """The one line to type for somebody who is not root; a fresh system has no package lists yet, or old ones."""
+    return "sudo apt-get update && sudo apt-get install --no-install-recommends " + " ".join(packages)
 
 
 def provide(needs: Iterable[Need]) -> None:

@@ -31,7 +31,7 @@ class Outcome(NamedTuple):
 def test(arguments: list[str]) -> int:
     """Run every leg; 0 only if all are good. With arguments, only the tests that pytest chooses by them."""
     has_opengl_leg = sys.platform == "linux"
-    dev_system.provide((*dev_system.QT, *dev_system.VIRTUAL_SCREEN))
+    dev_system.provide((*dev_environment.needs(), *dev_system.QT, *dev_system.VIRTUAL_SCREEN))
     python = str(dev_environment.ensure(extras=("test",)))
     linted = [] if arguments else [_leg(name, [python, "-m", *command]) for name, command in _LINTERS]
     tested = [_off_screen(python, arguments, judges_coverage=not has_opengl_leg)]

@@ -34,7 +34,7 @@ def test_the_line_to_type_names_what_is_missing_and_nothing_else() -> None:
     from dev_system import Need, apt_line, apt_packages
 
     packages = apt_packages([Need("libEGL.so.1", "libegl1"), Need("Xvfb", "xvfb")], {})
-    assert apt_line(packages) == "sudo apt-get install --no-install-recommends libegl1 xvfb"
+    assert apt_line(packages) == ("sudo apt-get update && sudo apt-get install --no-install-recommends libegl1 xvfb")
 
 
 def test_presence_is_found_out_by_looking() -> None:
