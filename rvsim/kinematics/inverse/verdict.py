@@ -42,7 +42,8 @@ def branches_of(robot: Robot, found: Candidates, here: FloatArray) -> list[Branc
     """The candidates that exist, are right and are not the double of another."""
     rows = np.flatnonzero(~np.isnan(found.q).any(axis=1))
     q = _polished(robot, found.q[rows], found)
-    residual, copies = _residuals(robot, q, found), limit_copies(robot, q, here)
+    copies = limit_copies(robot, q, here)
+    residual = _residuals(robot, copies.q, found)
     right = np.flatnonzero(residual <= RESIDUAL)
     # Of doubles, at a straight elbow for instance, one within the limits stands for both.
     right = right[np.lexsort((residual[right], ~copies.within[right]))]

@@ -35,11 +35,12 @@ def test_doubles_are_merged_and_limits_judged_with_whole_turns_as_the_oracle_doe
         result = inverse_kinematics(robot, sample["T"], near=sample["q"])
         if not sample["continuum"]:
             assert len(result.branches) == sample["n_branches"]
-            within = sum(branch["in_limits"] for branch in sample["branches"])
-            # A double at a straight elbow counts as within the limits if one of the two is.
-            assert sum(branch.within_limits for branch in result.branches) - within in (
-                (0, 1) if sample["families"] else (0,)
+            ours, theirs = (
+                sum(b.within_limits for b in result.branches),
+                sum(b["in_limits"] for b in sample["branches"]),
             )
+            # A double at a straight elbow counts as within the limits if one of the two is.
+            assert ours == theirs or (ours > theirs and sample["families"])
         # In a continuum the free joint stays where it is, so the sample's own configuration is among the branches.
         assert apart(robot, [branch.q for branch in result.branches], sample["q"]).min() < SINGULAR
 
