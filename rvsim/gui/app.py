@@ -20,7 +20,7 @@ from rvsim.gui.renderers.choose import choose_renderer
 from rvsim.gui.renderers.opengl_context import prepare_opengl, probe_opengl
 from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.session import Session
-from rvsim.gui.theme import load_fonts
+from rvsim.gui.theme import load_fonts, wear_theme
 from rvsim.lab.lines import default_experiment
 from rvsim.resources import resource
 
@@ -39,8 +39,8 @@ def build_window(preferences: Preferences | None = None, *, robot: str = "", ren
     first = library[name] if name in library else library["rv-m1"]
     session = Session(default_experiment(first), default_experiment)
     choice = choose_renderer(renderer or wishes["renderer"], QGuiApplication.platformName(), probe_opengl)
+    wear_theme(wishes)  # before there are widgets: dressing them one by one is slower
     window = MainWindow(session, wishes, library, choice)
-    window.apply_theme()
     window.say_welcome()
     return window
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QByteArray, Qt
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent
-from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
 
 from rvsim.experiment import Experiment
 from rvsim.files import find_user_folder
@@ -24,7 +24,7 @@ from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.scene_view import SceneView
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
-from rvsim.gui.theme import apply_theme, set_role
+from rvsim.gui.theme import set_role, wear_theme
 from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import ElidedLabel, column_of
@@ -181,13 +181,7 @@ class MainWindow(QMainWindow):
 
     def _on_preference(self, name: str) -> None:
         if name in ("theme", "presentation"):
-            self.apply_theme()
-
-    def apply_theme(self) -> None:
-        """Dress the application as the preferences say."""
-        app = QApplication.instance()
-        assert isinstance(app, QApplication)
-        apply_theme(app, self.preferences["theme"], presentation=self.preferences["presentation"])
+            wear_theme(self.preferences)
 
     def say_welcome(self) -> None:
         """The first minute: what to do now."""

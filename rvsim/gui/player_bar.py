@@ -28,10 +28,11 @@ class PlayerBar(QWidget):
         self.slider.setObjectName("time_slider")
         self.slider.setAccessibleName("Time")
         self.slider.setRange(0, _TICKS)
+        self.slider.setMinimumWidth(80)
         self.slider.setPageStep(_TICKS // 20)
         self.slider.setSingleStep(_TICKS // 200)
         self.slider.valueChanged.connect(self._on_slider)
-        self.time = QLabel("No motion yet: press Track line")
+        self.time = QLabel("No motion yet")
         self.time.setObjectName("time_label")
         set_role(self.time, role="muted")
         self.speed = QComboBox()
@@ -92,7 +93,7 @@ class PlayerBar(QWidget):
     def _show_time(self, time: float) -> None:
         duration = self._motion.player.duration
         if self._motion.player.trajectory is None:
-            self.time.setText("No motion yet: press Track line")
+            self.time.setText("No motion yet")
             ticks = 0
         else:
             self.time.setText(f"{format_number(time, 2)} / {format_number(duration, 2)} s")

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
 from PySide6.QtWidgets import QApplication
 
+from rvsim.gui.preferences import Preferences
 from rvsim.resources import resource
 
 
@@ -124,8 +125,11 @@ QLabel[level="good"] {{ color: {good}; }}
 
 
 def apply_theme(app: QApplication, name: str, *, presentation: bool = False) -> Theme:
-    """Dress the whole application."""
-    theme = THEMES[name]
+    """Dress the whole application; an application that is dressed so already is left alone, for that is slow."""
+    theme, worn = THEMES[name], f"{name} {presentation}"
+    if app.property("theme") == worn:
+        return theme
+    app.setProperty("theme", worn)
     app.setStyle("Fusion")
     app.setPalette(_palette(theme))
     app.setFont(_font(app, presentation))
@@ -133,6 +137,13 @@ def apply_theme(app: QApplication, name: str, *, presentation: bool = False) -> 
     icons = {icon: resource("icons", f"{icon}-{shade}.svg").as_posix() for icon in ("arrow", "check")}
     app.setStyleSheet(_STYLE.format(**theme._asdict(), **icons))
     return theme
+
+
+def wear_theme(preferences: Preferences) -> None:
+    """Dress the running application as the preferences say."""
+    app = QApplication.instance()
+    assert isinstance(app, QApplication)
+    apply_theme(app, preferences["theme"], presentation=preferences["presentation"])
 
 
 def set_role(widget: object, **properties: object) -> None:

@@ -55,7 +55,7 @@ def message(window: QWidget) -> str:
 
 
 def test_five_angles_are_typed_and_plotted(qtbot: QtBot, window: MainWindow) -> None:
-    for index, text in enumerate(["30", "2*20", "−50", "20", "60,0"], 1):
+    for index, text in enumerate(["30", "2*20", "-50", "20", "60,0"], 1):
         type_into(qtbot, window, f"joint_value_{index}", text)
     press(qtbot, window, "plot_button")
     assert values(window) == pytest.approx([30.0, 40.0, -50.0, 20.0, 60.0])
@@ -115,6 +115,7 @@ def test_the_sources_line_says_which_points_and_why(qtbot: QtBot, window: MainWi
     for end, point in (("start", (110, 0, 130)), ("end", (230, 0, 333))):
         for axis, value in zip("xyz", point, strict=True):
             type_into(qtbot, window, f"line_{end}_{axis}", str(value))
+    type_into(qtbot, window, "line_resolution", "0.1")
     press(qtbot, window, "track_line_button")
     tracking = window.session.tracking
     assert tracking is not None

@@ -251,6 +251,7 @@ class JointsPanel(QWidget):
     def _make_rows(self) -> None:
         for row in self._rows:
             self._joints_column.removeWidget(row)
+            row.setParent(None)  # so that nobody who looks for a joint's box by name finds one of the last arm
             row.deleteLater()
         while self._joints_column.count():
             self._joints_column.takeAt(0)
