@@ -117,9 +117,9 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
         opaque = [body for body in bodies if body.color.alpha >= 1.0]
         layers.plate.show_items(item for item in floor if isinstance(item, Capsule | Box))
         layers.grid.show_items((item for item in floor if isinstance(item, _LINES)), background)
-        layers.shadow.show_shadow(opaque if floor else [], _shadow_color(background))
         layers.ghosts.show_items(body for body in bodies if body.color.alpha < 1.0)
         layers.bodies.show_items(opaque)
+        layers.shadow.show_shadow(layers.bodies.placed if floor else {}, _shadow_color(background))
         layers.lines.show_items((item for item in things if isinstance(item, _LINES)), background)
         layers.frames.show_items((item for item in things if isinstance(item, Triads)), background)
         layers.texts.show_items((item for item in scene.items if isinstance(item, Labels | Triads)), background)

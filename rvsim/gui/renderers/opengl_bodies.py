@@ -22,7 +22,9 @@ _SOFTNESS = (1.5, 1.15, 0.8)
 _ONTO_FLOOR = QMatrix4x4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1)
 
 
-class _Placed(NamedTuple):
+class Placed(NamedTuple):
+    """A body, which unit body it is stretched from, and how: frame, edges or radius, length."""
+
     item: Body
     shape: str
     place: QMatrix4x4
@@ -30,17 +32,17 @@ class _Placed(NamedTuple):
     stretch: float
 
 
-def _place(item: Body) -> _Placed | None:
+def _place(item: Body) -> Placed | None:
     """Where a body goes; None if it is nowhere."""
     if isinstance(item, Capsule):
         if not np.isfinite([*item.start, *item.end, item.radius]).all():
             return None
         matrix, stretch = capsule_transform(item.start, item.end)
-        return _Placed(item, "capsule", to_qt(matrix), (item.radius, item.radius, item.radius), stretch)
+        return Placed(item, "capsule", to_qt(matrix), (item.radius, item.radius, item.radius), stretch)
     if not (np.isfinite(item.T_base_box).all() and np.isfinite(item.size).all()):
         return None
     x, y, z = item.size.tolist()
-    return _Placed(item, "box", to_qt(item.T_base_box), (x, y, z), 0.0)
+    return Placed(item, "box", to_qt(item.T_base_box), (x, y, z), 0.0)
 
 
 def unit_bodies() -> dict[str, Vertices]:
@@ -49,12 +51,16 @@ def unit_bodies() -> dict[str, Vertices]:
 
 
 class BodyLayer(GLGraphicsItem):  # type: ignore[misc]
-    """Capsules and boxes, all drawn from the unit bodies of their view."""
+    """Capsules and boxes, all drawn from the unit bodies of their view.
+
+    Attributes:
+        placed: what is shown, by key.
+    """
 
     def __init__(self, units: dict[str, Vertices]) -> None:
         super().__init__()
         self._units = units
-        self._placed: dict[str, _Placed] = {}
+        self.placed: dict[str, Placed] = {}
         self._pipeline: Pipeline | None = None
 
     def initializeGL(self) -> None:
@@ -63,16 +69,16 @@ class BodyLayer(GLGraphicsItem):  # type: ignore[misc]
 
     def show_items(self, items: Iterable[Body]) -> None:
         """Show exactly these."""
-        old, self._placed = self._placed, {}
+        old, self.placed = self.placed, {}
         for item in items:
             known = old.get(item.key)
             placed = known if known is not None and known.item is item else _place(item)
             if placed is not None:
-                self._placed[item.key] = placed
+                self.placed[item.key] = placed
 
     def paint(self) -> None:
         """Draw what there is into the view."""
-        if self._placed and self._pipeline is not None:
+        if self.placed and self._pipeline is not None:
             frame: Frame = self.view().frame
             self._pipeline.bind()
             self._pipeline.set_matrix("projection", frame.projection)
@@ -86,10 +92,10 @@ class BodyLayer(GLGraphicsItem):  # type: ignore[misc]
         use_depth(gl, True)
         gl.glDisable(GL.GL_BLEND)
         gl.glEnable(GL.GL_CULL_FACE)
-        self._draw_bodies(self._placed.values(), frame, pipeline)
+        self._draw_bodies(self.placed.values(), frame, pipeline)
         gl.glDisable(GL.GL_CULL_FACE)
 
-    def _draw_bodies(self, bodies: Iterable[_Placed], frame: Frame, pipeline: Pipeline) -> None:
+    def _draw_bodies(self, bodies: Iterable[Placed], frame: Frame, pipeline: Pipeline) -> None:
         for shape, vertices in self._units.items():
             alike = [body for body in bodies if body.shape == shape]
             if alike:
@@ -102,7 +108,7 @@ class BodyLayer(GLGraphicsItem):  # type: ignore[misc]
                 frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)
 
 
-def _stretch(pipeline: Pipeline, body: _Placed, view: QMatrix4x4, wider: float) -> None:
+def _stretch(pipeline: Pipeline, body: Placed, view: QMatrix4x4, wider: float) -> None:
     pipeline.set_matrix("model_view", view * body.place)
     pipeline.set_vector("scale", *(wider * edge for edge in body.scale))
     pipeline.set_number("stretch", body.stretch)
@@ -116,7 +122,7 @@ class PlateLayer(BodyLayer):
         use_depth(frame.functions, False)
         frame.functions.glDisable(GL.GL_BLEND)
         pipeline.set_number("lit", 0.0)
-        self._draw_bodies(self._placed.values(), frame, pipeline)
+        self._draw_bodies(self.placed.values(), frame, pipeline)
 
 
 class GhostLayer(BodyLayer):
@@ -128,8 +134,8 @@ class GhostLayer(BodyLayer):
         use_depth(gl, True)
         blend(gl)
         gl.glEnable(GL.GL_CULL_FACE)
-        for alpha in sorted({body.item.color.alpha for body in self._placed.values()}):
-            pane = [body for body in self._placed.values() if body.item.color.alpha == alpha]
+        for alpha in sorted({body.item.color.alpha for body in self.placed.values()}):
+            pane = [body for body in self.placed.values() if body.item.color.alpha == alpha]
             gl.glColorMask(False, False, False, False)
             self._draw_bodies(pane, frame, pipeline)
             gl.glColorMask(True, True, True, True)
@@ -145,10 +151,10 @@ class ShadowLayer(BodyLayer):
         super().__init__(units)
         self._color = Color(0.0, 0.0, 0.0)
 
-    def show_shadow(self, items: Iterable[Body], color: Color) -> None:
+    def show_shadow(self, bodies: dict[str, Placed], color: Color) -> None:
         """Show the shadow of exactly these."""
         self._color = color.faded(1.0 / len(_SOFTNESS))
-        self.show_items(items)
+        self.placed = bodies
 
     def draw(self, frame: Frame, pipeline: Pipeline) -> None:
         """Draw all bodies flat; the stencil lets each width darken a pixel once."""
@@ -170,6 +176,6 @@ class ShadowLayer(BodyLayer):
         for shape, vertices in self._units.items():
             pipeline.read_from(vertices)
             wider = width if shape == "capsule" else 0.75 + 0.25 * width
-            for body in (body for body in self._placed.values() if body.shape == shape):
+            for body in (body for body in self.placed.values() if body.shape == shape):
                 _stretch(pipeline, body, on_floor, wider)
                 frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)
