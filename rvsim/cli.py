@@ -25,10 +25,11 @@ from rvsim.files import load_robot, robot_names
 from rvsim.kinematics import forward_kinematics, jacobian, link_transforms
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
-from rvsim.spatial import rpy_from_rotation
-from rvsim.units import degrees_from_radians, metres_from_millimetres, millimetres_from_metres, radians_from_degrees
+from rvsim.spatial import rotation_from_rpy, transform
+from rvsim.units import metres_from_millimetres, radians_from_degrees
 
 if TYPE_CHECKING:
+    from rvsim.kinematics import InverseResult
     from rvsim.motion import Tracking
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
@@ -105,6 +106,20 @@ def _add_arm_and_joints(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--deg", required=True, metavar='"30,40,…"', help="joints: degrees, mm for a prismatic one")
 
 
+def _add_pose_options(parser: argparse.ArgumentParser) -> None:
+    _add_arm(parser)
+    parser.add_argument("--xyz-mm", required=True, metavar='"x,y,z"', help="where the tool should be")
+    parser.add_argument(
+        "--rpy-deg", metavar='"roll,pitch,yaw"', help="how it should be turned: Rz(yaw) Ry(pitch) Rx(roll)"
+    )
+    parser.add_argument("--task", help='what of the pose counts, for instance "position"; the arm\'s own if not given')
+    _add_near(parser)
+
+
+def _add_near(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--near-deg", metavar='"0,0,…"', help="where the joints are; home if not given")
+
+
 def _add_track_options(parser: argparse.ArgumentParser) -> None:
     _add_arm(parser)
     parser.add_argument("--path", default="line", metavar="NAME|FILE.csv", help="line, letter-board, ellipse, …")
@@ -113,7 +128,7 @@ def _add_track_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--samples", type=_samples, help="the number of points")
     parser.add_argument("--height-mm", metavar="z", help="of the letter divided by 40")
     parser.add_argument("--orientation", choices=("down", "free", "keep", "source"), help="of the tool")
-    parser.add_argument("--near-deg", metavar='"0,0,…"', help="the pose to start from (home)")
+    _add_near(parser)
     parser.add_argument("--ignore-limits", action="store_true", help="leave the joint limits out of account")
     parser.add_argument("--csv", metavar="FILE", help="write the joints, a row a point")
     parser.add_argument("--png", metavar="FILE", help="draw the arm on its path")
@@ -194,11 +209,24 @@ def _row(values: FloatArray, decimals: int = 1) -> str:
 
 
 def _window(options: argparse.Namespace) -> int:
+    if options.robot is not None:
+        load_robot(options.robot)  # an unknown arm is told before anything opens
+    _require_display(options)
     from rvsim.gui.app import main as open_window
 
-    if options.robot is not None:
-        load_robot(options.robot)  # an unknown arm is said here, before anything opens
     return open_window(options)
+
+
+def _require_display(options: argparse.Namespace) -> None:
+    """Qt aborts without a display; a picture needs none."""
+    seen = any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"))
+    if seen or not sys.platform.startswith("linux"):
+        return
+    if options.screenshot is None:
+        raise InputError(
+            "There is no display for a window. Without one: rvsim --screenshot FILE.png, rvsim track ARM …"
+        )
+    os.environ["QT_QPA_PLATFORM"] = "offscreen"
 
 
 def _robots(options: argparse.Namespace) -> int:
@@ -225,13 +253,14 @@ def _robot_record(robot: Robot) -> dict[str, Any]:
 
 
 def _fk(options: argparse.Namespace) -> int:
+    from rvsim.lab.tables import pose_record
+
     robot = load_robot(options.arm)
     q = _joints(robot, "--deg", options.deg)
     T = forward_kinematics(robot, q)
-    xyz_mm, rpy_deg = millimetres_from_metres(T[:3, 3]), degrees_from_radians(rpy_from_rotation(T[:3, :3]))
-    outside = _outside(robot, q)
-    record = {"robot": robot.name, "xyz_mm": xyz_mm, "rpy_deg": rpy_deg, "T_base_tool": T, "outside_limits": outside}
-    text = f"({_row(xyz_mm)}) mm\nroll, pitch, yaw: ({_row(rpy_deg)})°"
+    pose, outside = pose_record(T), _outside(robot, q)
+    record = {"robot": robot.name, **pose, "T_base_tool": T, "outside_limits": outside}
+    text = f"({_row(pose['xyz_mm'])}) mm\nroll, pitch, yaw: ({_row(pose['rpy_deg'])})°"
     if outside:
         text += f"\nOutside its limits: {', '.join(outside)}."
     _print(options, record, text)
@@ -260,13 +289,50 @@ def _jacobian(options: argparse.Namespace) -> int:
 _TWIST = ("vx", "vy", "vz", "wx", "wy", "wz")
 
 
+def _ik(options: argparse.Namespace) -> int:
+    from rvsim.kinematics import inverse_kinematics, inverse_tasks
+    from rvsim.lab.tables import inverse_record
+
+    robot = load_robot(options.arm)
+    task = options.task
+    if options.rpy_deg is None and task is None:
+        task = next((name for name in inverse_tasks(robot) if name in _PLACE_TASKS), None)
+        if task is None:
+            raise InputError(f"{robot.title} needs an orientation as well: --rpy-deg roll,pitch,yaw.")
+    rpy_deg = _numbers("--rpy-deg", options.rpy_deg or "0,0,0", ("roll", "pitch", "yaw"))
+    xyz_mm = _numbers("--xyz-mm", options.xyz_mm, ("x", "y", "z"))
+    T = transform(rotation_from_rpy(radians_from_degrees(rpy_deg)), metres_from_millimetres(xyz_mm))
+    result = inverse_kinematics(robot, T, task=task, near=_near(robot, options))
+    _print(options, inverse_record(robot, result), _inverse_text(robot, result))
+    return DONE if result.failure is None else FAILED
+
+
+_PLACE_TASKS = ("position", "x,y")
+
+
+def _inverse_text(robot: Robot, result: InverseResult) -> str:
+    from rvsim.lab.tables import shown_joints
+
+    width = max((len(branch.label) for branch in result.branches), default=0)
+    lines = [
+        f"{branch.label:{width}}  ({_row(shown_joints(robot, branch.q))})  "
+        f"{'within the limits' if branch.within_limits else 'outside the limits'}  residual {branch.residual:.1e}"
+        for branch in result.branches
+    ]
+    return "\n".join([*lines, *([] if result.failure is None else [result.failure.reason])])
+
+
+def _near(robot: Robot, options: argparse.Namespace) -> FloatArray:
+    return robot.home if options.near_deg is None else _joints(robot, "--near-deg", options.near_deg)
+
+
 def _track(options: argparse.Namespace) -> int:
     from rvsim.lab import named_path
     from rvsim.lab.tables import tracking_csv, tracking_record
     from rvsim.motion import track
 
     robot = load_robot(options.arm)
-    near = robot.home if options.near_deg is None else _joints(robot, "--near-deg", options.near_deg)
+    near = _near(robot, options)
     height = {} if options.height_mm is None else {"height": metres_from_millimetres(evaluate(options.height_mm))}
     start, end = _place("--from-mm", options.from_mm), _place("--to-mm", options.to_mm)
     path = named_path(
@@ -340,5 +406,6 @@ _COMMANDS: tuple[
     ("robots", _robots, "list the arms", _no_options),
     ("fk", _fk, "where the tool is", _add_arm_and_joints),
     ("jacobian", _jacobian, "how the tool moves with the joints", _add_arm_and_joints),
+    ("ik", _ik, "which joints bring the tool to a pose", _add_pose_options),
     ("track", _track, "follow a path", _add_track_options),
 )

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rvsim.kinematics.inverse import Branch, Failure, InverseResult
 from rvsim.motion import Tracking, Unreached
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
+from rvsim.spatial import rpy_from_rotation
 from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 Record = dict[str, Any]
@@ -45,6 +47,21 @@ def tracking_record(tracking: Tracking) -> Record:
     }
 
 
+def inverse_record(robot: Robot, result: InverseResult) -> Record:
+    """Every branch and the failure, as `rvsim ik --json` prints them."""
+    return {
+        "robot": robot.name,
+        "branches": [_branch_record(robot, branch) for branch in result.branches],
+        "failure": None if result.failure is None else _failure_record(robot, result.failure),
+    }
+
+
+def pose_record(T: FloatArray) -> Record:
+    """Place and orientation of a pose (4, 4); the rotation is Rz(yaw) Ry(pitch) Rx(roll)."""
+    rpy = rpy_from_rotation(T[:3, :3])
+    return {"xyz_mm": millimetres_from_metres(T[:3, 3]), "rpy_deg": degrees_from_radians(rpy)}
+
+
 def tracking_csv(tracking: Tracking) -> str:
     """One row a point: where the tool should be, the joints, where it is; empty cells where it was not reached."""
     joints = [f"{_column(joint.name)}_{'deg' if joint.revolute else 'mm'}" for joint in tracking.robot.joints]
@@ -74,6 +91,23 @@ def without_nan(value: Any) -> Any:
     if isinstance(value, (np.ndarray, np.generic)):
         return without_nan(value.tolist())
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _branch_record(robot: Robot, branch: Branch) -> Record:
+    return {
+        "label": branch.label,
+        "q": shown_joints(robot, branch.q),
+        "within_limits": branch.within_limits,
+        "limit_margin": shown_joints(robot, branch.limit_margin),
+        "residual": branch.residual,
+        "manipulability": branch.manipulability,
+        "continuum": branch.continuum,
+    }
+
+
+def _failure_record(robot: Robot, failure: Failure) -> Record:
+    nearest = {"q": shown_joints(robot, failure.nearest_q), **pose_record(failure.nearest_T)}
+    return {"kind": failure.kind, "reason": failure.reason, "joint": failure.joint, "nearest": nearest}
 
 
 def _unreached_record(robot: Robot, point: Unreached) -> Record:
