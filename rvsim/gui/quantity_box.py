@@ -75,9 +75,12 @@ class QuantityBox(QDoubleSpinBox):
         blocked = self.blockSignals(True)
         # A pose reached while limits were ignored may lie outside them: it is shown as it is.
         lower, upper = min(self._lower, self._quantity), max(self._upper, self._quantity)
-        self.setRange(max(lower * shown.factor, -1e9), min(upper * shown.factor, 1e9))
-        self.setSuffix(shown.suffix)
-        self.setSingleStep(shown.step)
+        span = max(lower * shown.factor, -1e9), min(upper * shown.factor, 1e9)
+        # Range and suffix make every layout around the box work anew: only when they are other ones.
+        if span != (self.minimum(), self.maximum()):
+            self.setRange(*span)
+        if shown.suffix != self.suffix():
+            self.setSuffix(shown.suffix)
         super().setValue(self._quantity * shown.factor)
         self.lineEdit().setText(self.textFromValue(self.value()) + self.suffix())
         self.setToolTip(f"{self._title}: {self._quantity * shown.factor:.12g}{shown.suffix}")
@@ -109,7 +112,7 @@ class QuantityBox(QDoubleSpinBox):
     def valueFromText(self, text: str) -> float:
         """The value of a typed text; the text that is merely shown keeps the exact value behind it."""
         bare = self._bare(text)
-        if bare == self.textFromValue(self.value()):
+        if self._is_untouched(bare):
             return self.value()
         try:
             return evaluate(bare)
@@ -120,7 +123,7 @@ class QuantityBox(QDoubleSpinBox):
         """Anything may be typed; only a number within the limits is taken."""
         bare = self._bare(text)
         try:
-            acceptable = bare == self.textFromValue(self.value()) or not self._problem(evaluate(bare))
+            acceptable = self._is_untouched(bare) or not self._problem(evaluate(bare))
         except ExpressionError:
             acceptable = False
         state = QValidator.State.Acceptable if acceptable else QValidator.State.Intermediate
@@ -128,18 +131,21 @@ class QuantityBox(QDoubleSpinBox):
 
     def fixup(self, text: str) -> str:
         """Asked for when what stands there cannot be taken: say why, and go back to the last value."""
-        bare = self._bare(text)
         try:
-            self.refused.emit(self._problem(evaluate(bare)) or "")
+            sentence = self._problem(evaluate(self._bare(text)))
         except ExpressionError as problem:
-            self.refused.emit(f"{self._title}: {problem}")
+            sentence = f"{self._title}: {problem}"
+        self._show()
+        if sentence:
+            self.refused.emit(sentence)
         return self.textFromValue(self.value())
 
+    def _is_untouched(self, bare: str) -> bool:
+        """Whether nobody has typed since the text was shown: then the exact value behind the rounded text counts."""
+        return bare == self.textFromValue(self.value()) and not self.lineEdit().isModified()
+
     def _bare(self, text: str) -> str:
-        for mark in (self.suffix(), self.suffix().strip()):
-            if mark and text.endswith(mark):
-                text = text[: -len(mark)]
-        return text.strip()
+        return text.strip().removesuffix(self.suffix().strip()).strip()
 
     def _problem(self, value: float) -> str:
         """Why a value in the shown unit cannot be taken, or nothing."""
@@ -171,20 +177,26 @@ class QuantityBox(QDoubleSpinBox):
             self._step(steps, event.modifiers())
 
     def wheelEvent(self, event: QWheelEvent) -> None:
-        """One notch is one step."""
-        notches = event.angleDelta().y() / 120.0
+        """One notch is one step; some systems turn the wheel sideways while a modifier is held."""
+        notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
         if notches and not self.isReadOnly():
             self._step(notches, event.modifiers())
             event.accept()
+        else:
+            event.ignore()  # what is around the box may scroll
 
     def _step(self, steps: float, modifiers: Qt.KeyboardModifier) -> None:
+        if self.isReadOnly():
+            return
         self.interpretText()
         scale = 10.0 if modifiers & Qt.KeyboardModifier.ShiftModifier else 1.0
         scale = 0.1 if modifiers & Qt.KeyboardModifier.ControlModifier else scale
         shown = display(self._kind, self._preferences)
         wanted = self.value() + steps * scale * shown.step
-        # Stepping against a stop ends at the stop: it is written beside the slider.
-        super().setValue(min(max(wanted, self._lower * shown.factor), self._upper * shown.factor))
+        # Stepping against a stop ends at the stop: it is written beside the slider. A value that is outside already
+        # (limits were ignored) steps back in, and no further out: it does not jump.
+        lower, upper = min(self._lower, self._quantity), max(self._upper, self._quantity)
+        super().setValue(min(max(wanted, lower * shown.factor), upper * shown.factor))
         self.selectAll()
 
     def stepBy(self, steps: int) -> None:
