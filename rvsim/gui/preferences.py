@@ -21,7 +21,7 @@ SETTINGS: dict[str, Setting] = {
     "length_unit": Setting("mm", ("mm", "m")),
     "extra_decimals": Setting(0, (0, 1, 2, 3, 4)),
     "orientation": Setting("rpy", ("rpy", "zyz", "quaternion", "axis_angle", "matrix")),
-    "look": Setting("both", ("stick", "solid", "both")),
+    "look": Setting("solid", ("stick", "solid", "both")),
     "show_frames": Setting(False),
     "show_labels": Setting(True),
     "show_floor": Setting(True),

@@ -22,6 +22,7 @@ from rvsim.scene.primitives import Item
 
 _TRAIL_SAMPLES = 1500
 _GLIDE_MS = 280
+_MARKED_POINTS = 25  # more dots than these hide the line
 _SCENE_SETTINGS = {"theme", "look", "show_frames", "show_labels", "show_floor", "show_trail"}
 
 
@@ -133,7 +134,8 @@ class Stage(QObject):
     def _path_items(self, tracking: Tracking | None) -> tuple[Item, ...]:
         if tracking is None:
             return ()
-        return path_items(tracking.path.points, tracking.reached, np.empty((0, 3)), self.palette)
+        few = tracking.samples <= _MARKED_POINTS
+        return path_items(tracking.path.points, tracking.reached, np.empty((0, 3)), self.palette, marks=few)
 
     def _sampled_trail(self) -> tuple[FloatArray, FloatArray]:
         """Times and tool points of the whole motion along the path; the way to it draws nothing."""

@@ -311,7 +311,7 @@ class JointsPanel(QWidget):
         poses = self._session.experiment.poses
         with QSignalBlocker(self.poses):
             self.poses.clear()
-            self.poses.addItem("Poses…" if poses else "No saved pose yet")
+            self.poses.addItem("Poses…" if poses else "No pose saved")
             for pose in poses:
                 self.poses.addItem(pose.name)
         self.poses.setEnabled(bool(poses))
