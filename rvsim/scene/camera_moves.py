@@ -12,34 +12,29 @@ from rvsim.scene.camera import Camera
 
 FloatArray = NDArray[np.float64]
 
-_ROUNDS = 4  # framing converges by a factor of about ten a round
 # The reach of an arm is round: eight directions at three heights hold it, while the corners of its box stay empty.
 _TURN = np.linspace(0.0, math.tau, 8, endpoint=False) + math.pi / 8
 _OCTAGON = np.stack([np.cos(_TURN), np.sin(_TURN)], axis=1) / math.cos(math.pi / 8)
-_RINGS = ((-1.0, 1.25), (0.2, 1.0), (1.0, 0.6))  # (height, width), each relative to half the box
+_RINGS = ((-1.0, 1.27), (0.2, 1.0), (1.0, 0.35))  # (height, width), each relative to half the box
 
 
 def framed(camera: Camera, bounds: ArrayLike, width: float, height: float, margin: float = 0.03) -> Camera:
     """From the same direction, with what an arm reaches inside `bounds` (2, 3) [m] in the middle and as large as fits.
 
+    Each side of the picture is a plane through the eye; the planes are moved until they touch the outermost points.
+
     Args:
         margin: the share of the picture that stays free at each side.
     """
-    points = dome(bounds)
-    framing = camera.fitted(bounds, width, height)
-    for _ in range(_ROUNDS):
-        low, high = _pixel_box(framing, points, width, height)
-        middle = (low + high) / 2
-        framing = framing.panned(width / 2 - middle[0], height / 2 - middle[1], height)
-        room = (1.0 - 2.0 * margin) * np.array([width, height])
-        factor = float(np.min(room / np.maximum(high - low, 1e-6)))
-        framing = framing.zoomed(factor, width / 2, height / 2, width, height)
-    return framing
-
-
-def _pixel_box(camera: Camera, points: FloatArray, width: float, height: float) -> tuple[FloatArray, FloatArray]:
-    pixels = camera.project(points, width, height)[:, :2]
-    return pixels.min(axis=0), pixels.max(axis=0)
+    centre = np.asarray(bounds, dtype=np.float64).mean(axis=0)
+    right_up, nearer = np.split((dome(bounds) - centre) @ camera.axes.T, [2], axis=1)
+    tangent = math.tan(camera.field_of_view / 2)
+    slopes = (1.0 - 2.0 * margin) * tangent * np.array([max(width, 1.0) / max(height, 1.0), 1.0])
+    lean = 0.0 if camera.orthographic else slopes * nearer
+    high, low = (lean + right_up).max(axis=0), (lean - right_up).max(axis=0)
+    distance = float(np.max((high + low) / (2.0 * slopes)))
+    shift = (high - low) / 2.0
+    return replace(camera, target=centre + shift @ camera.axes[:2], distance=distance)
 
 
 def dome(bounds: ArrayLike) -> FloatArray:

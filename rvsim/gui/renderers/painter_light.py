@@ -19,7 +19,7 @@ def _unit(*vector: float) -> SingleArray:
 LIGHT = _unit(-0.42, 0.68, -0.60)
 HALFWAY = _unit(*(LIGHT + np.array([0.0, 0.0, -1.0])))  # between the light and the viewer
 UPWARD = _unit(0.0, 1.0, 0.0)
-_AMBIENT, _DIFFUSE, _SKY, _SHINE = 0.46, 0.50, 0.10, 0.28
+_AMBIENT, _DIFFUSE, _SKY, _SHINE = 0.54, 0.44, 0.09, 0.26
 
 
 def lit(color: Color, facing: SingleArray, halfway: SingleArray, upward: SingleArray) -> PixelArray:
