@@ -145,7 +145,9 @@ class QuantityBox(QDoubleSpinBox):
         return bare == self.textFromValue(self.value()) and not self.lineEdit().isModified()
 
     def _bare(self, text: str) -> str:
-        return text.strip().removesuffix(self.suffix().strip()).strip()
+        """Without the unit; it stands there twice where the user typed it before the one that Qt keeps."""
+        unit = self.suffix().strip()
+        return text.strip().removesuffix(unit).strip().removesuffix(unit).strip()
 
     def _problem(self, value: float) -> str:
         """Why a value in the shown unit cannot be taken, or nothing."""
