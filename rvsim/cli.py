@@ -22,7 +22,7 @@ from rvsim import __version__
 from rvsim.errors import RvsimError
 from rvsim.expressions import evaluate
 from rvsim.files import load_robot, robot_names
-from rvsim.kinematics import forward_kinematics, jacobian, link_transforms
+from rvsim.kinematics import forward_kinematics, jacobian
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rotation_from_rpy, transform
@@ -349,7 +349,9 @@ def _track(options: argparse.Namespace) -> int:
     if options.csv:
         _write(options.csv, tracking_csv(tracking))
     if options.png:
-        _draw(tracking, options.png)
+        from rvsim.gui.tracking_picture import save_tracking_picture
+
+        save_tracking_picture(tracking, options.png)
     _print(options, tracking_record(tracking), _tracking_text(tracking, options))
     return DONE if tracking.reached_count else FAILED
 
@@ -368,38 +370,6 @@ def _write(file: str, text: str) -> None:
     write_atomically(Path(file), text.encode())
 
 
-def _draw(tracking: Tracking, file: str) -> None:
-    """The arm on its path, at the last but one quarter of what it reached, painted without a screen."""
-    os.environ["QT_QPA_PLATFORM"] = "offscreen"
-    from PySide6.QtGui import QGuiApplication
-
-    from rvsim.gui.picture import save_picture
-    from rvsim.gui.theme import load_fonts
-    from rvsim.scene import Camera
-    from rvsim.scene.build import compose
-    from rvsim.scene.palette import LIGHT
-    from rvsim.scene.paths import path_items
-
-    application = QGuiApplication.instance() or QGuiApplication(["rvsim"])
-    load_fonts()
-    reached = np.flatnonzero(tracking.reached)
-    q = tracking.q[reached[3 * len(reached) // 4]] if len(reached) else tracking.robot.home
-    path = path_items(tracking.path.points, tracking.reached, tracking.actual[reached], LIGHT)
-    scene = compose(tracking.robot, q, LIGHT, extras=path)
-    camera = Camera(np.zeros(3), 1.0).fitted(_seen(tracking, q), *_PICTURE)
-    save_picture(scene, camera, file, *_PICTURE)
-    del application
-
-
-def _seen(tracking: Tracking, q: FloatArray) -> FloatArray:
-    """(2, 3) the box around base, arm and path, with some air [m]."""
-    arm = link_transforms(tracking.robot, q)[:, :3, 3]
-    points = np.concatenate([np.zeros((1, 3)), arm, tracking.path.points])
-    air = 0.15 * float(np.ptp(points, axis=0).max())
-    return np.array([points.min(axis=0) - (air, air, 0.0), points.max(axis=0) + air])
-
-
-_PICTURE = (1280, 960)
 _COMMANDS: tuple[
     tuple[str, Callable[[argparse.Namespace], int], str, Callable[[argparse.ArgumentParser], None]], ...
 ] = (
