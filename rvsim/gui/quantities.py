@@ -64,3 +64,12 @@ def format_quantity(value: float, kind: Kind, preferences: Preferences) -> str:
 def format_scientific(value: float, digits: int = 1) -> str:
     """Errors and residuals: always scientific, never rounded to 0."""
     return f"{value:.{digits}e}".replace("-", "\u2212")
+
+
+def without_unit(text: str, suffix: str) -> str:
+    """A typed text without the unit behind it: "250 mm" as "250" where mm is shown, but as it is where m is shown."""
+    bare, unit = text.strip(), suffix.strip()
+    if not unit or not bare.endswith(unit):
+        return bare
+    shorter = bare.removesuffix(unit)
+    return bare if shorter[-1:].isalpha() else shorter.strip()

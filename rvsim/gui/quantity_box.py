@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QWidget
 from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import Kind, display, format_number
+from rvsim.gui.quantities import Kind, display, format_number, without_unit
 
 _KEPT_DECIMALS = 12  # the spin box rounds to these; the text shows far fewer
 _STEPS = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1, Qt.Key.Key_PageUp: 10, Qt.Key.Key_PageDown: -10}
@@ -146,8 +146,7 @@ class QuantityBox(QDoubleSpinBox):
 
     def _bare(self, text: str) -> str:
         """Without the unit; it stands there twice where the user typed it before the one that Qt keeps."""
-        unit = self.suffix().strip()
-        return text.strip().removesuffix(unit).strip().removesuffix(unit).strip()
+        return without_unit(without_unit(text, self.suffix()), self.suffix())
 
     def _problem(self, value: float) -> str:
         """Why a value in the shown unit cannot be taken, or nothing."""

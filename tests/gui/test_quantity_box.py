@@ -243,6 +243,8 @@ def test_the_same_text_in_another_unit_means_another_quantity(free, qtbot, prefe
     assert free.quantity == pytest.approx(0.3)
     enter(free, qtbot, "0.35 m")
     assert free.quantity == pytest.approx(0.35)
+    enter(free, qtbot, "400 mm")
+    assert free.quantity == pytest.approx(0.35), "millimetres are not metres"
 
 
 def test_set_value_is_typing_for_programs(box):

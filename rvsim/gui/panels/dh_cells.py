@@ -9,7 +9,16 @@ from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate
 from rvsim.gui.panels.matrices import subscript
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import Display, Kind, display, format_number, format_quantity, joint_kind, length_kind
+from rvsim.gui.quantities import (
+    Display,
+    Kind,
+    display,
+    format_number,
+    format_quantity,
+    joint_kind,
+    length_kind,
+    without_unit,
+)
 from rvsim.robot import Robot
 from rvsim.robot.edits import DHKey
 
@@ -71,7 +80,7 @@ def typed(robot: Robot, joint: int, key: DHKey, text: str, preferences: Preferen
     """The SI value of a typed text in this cell, or why not."""
     title = cell_title(robot, joint, key)
     shown = display(cell_kind(robot, joint, key), preferences)
-    bare = text.strip().removesuffix(shown.suffix.strip()).strip()
+    bare = without_unit(text, shown.suffix)
     if bare.lower() in _NONE:
         return _no_limit(title, key)
     try:
