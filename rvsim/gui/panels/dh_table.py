@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import cast
 
 import numpy as np
-from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHBoxLayout,
@@ -46,9 +45,8 @@ CONVENTION_SENTENCES = {
 
 
 class DHTablePanel(ReadOutPanel):
-    """Shows and edits the DH table. `robot_made(robot)` tells an arm that the library does not know yet."""
+    """Shows the DH table; an edit goes to a copy that is the user's own, and from there to a file and back."""
 
-    robot_made = Signal(object)
     settings = NUMBER_SETTINGS
 
     def __init__(self, session: Session, preferences: Preferences, parent: QWidget | None = None) -> None:
@@ -136,7 +134,11 @@ class DHTablePanel(ReadOutPanel):
     def original(self) -> Robot:
         """The arm that the edits of the present one began with."""
         robot = self._session.robot
-        return self._originals.setdefault(robot.name, robot)
+        original = self._originals.setdefault(robot.name, robot)
+        # A file may bring another arm under a known name: such an arm is its own original.
+        if (original.joint_types, original.convention) != (robot.joint_types, robot.convention):
+            self._originals[robot.name] = original = robot
+        return original
 
     def refresh(self) -> None:
         """Show the present arm."""
@@ -191,8 +193,6 @@ class DHTablePanel(ReadOutPanel):
         title = cell_title(robot, joint, key)
         text = f"Edit {title[0].lower()}{title[1:]} of {robot.title}"
         self._session.edit(text, self._session.experiment.with_robot(robot), merge=f"dh {joint} {key}")
-        if own is not before:
-            self.robot_made.emit(robot)
         self._complain(" ".join(self._consequences(before, robot, joint, key)))
 
     def _consequences(self, before: Robot, after: Robot, joint: int, key: DHKey) -> Iterable[str]:
@@ -237,7 +237,6 @@ class DHTablePanel(ReadOutPanel):
         robot, sentence = opened(path)
         if robot is not None:
             self._originals[robot.name] = robot
-            self.robot_made.emit(robot)
             self._session.use_robot(robot)
         self._tell(sentence, "good" if robot is not None else "error")
 

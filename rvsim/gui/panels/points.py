@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QHeaderView, QLabel, QVBoxLayout, QWi
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.matrices import plain_digits, subscript
 from rvsim.gui.panels.shown import ReadOutPanel
-from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot, fit_height, plain_table
+from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot, fit_height, plain_table, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, display, format_number, length_kind
 from rvsim.gui.session import Session
@@ -163,7 +163,7 @@ class PointsPanel(ReadOutPanel):
     def _fit_columns(self) -> None:
         """Wide enough for the longest number that the format can show, so that nothing jumps while the arm moves."""
         widest = format_number(-8888.0, self.model.shown.decimals)
-        width = self.table.fontMetrics().horizontalAdvance(widest) + 16
+        width = text_metrics().horizontalAdvance(widest) + 16
         if width != self.table.columnWidth(1):
             for axis in (1, 2, 3):
                 self.table.setColumnWidth(axis, width)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import QEvent
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QWidget
 
@@ -50,3 +51,9 @@ class ReadOutPanel(QWidget):
         if self._stale:
             self._stale = False
             self.refresh()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another font: other widths and heights."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self._refresh_if_seen()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelIndex, Qt
-from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
+from PySide6.QtGui import QColor, QFontMetrics, QGuiApplication, QIcon, QPainter, QPixmap
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
 
 Index = QModelIndex | QPersistentModelIndex
@@ -24,9 +24,7 @@ def plain_table(name: str, title: str, model: QAbstractItemModel) -> QTableView:
     table.setAlternatingRowColors(True)
     table.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
     table.verticalHeader().hide()
-    rows = table.verticalHeader()
-    rows.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
-    rows.setDefaultSectionSize(table.fontMetrics().height() + 10)
+    table.verticalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
     columns = table.horizontalHeader()
     columns.setMinimumSectionSize(24)
     columns.setHighlightSections(False)
@@ -36,8 +34,16 @@ def plain_table(name: str, title: str, model: QAbstractItemModel) -> QTableView:
 
 def fit_height(table: QTableView) -> None:
     """As high as all its rows need, and no higher; lower than that, it scrolls."""
-    rows = sum(table.rowHeight(row) for row in range(table.model().rowCount()))
+    row = text_metrics().height() + 10
+    if row != table.verticalHeader().defaultSectionSize():
+        table.verticalHeader().setDefaultSectionSize(row)
+    rows = row * table.model().rowCount()
     table.setMaximumHeight(table.horizontalHeader().sizeHint().height() + rows + 2 * table.frameWidth() + 2)
+
+
+def text_metrics() -> QFontMetrics:
+    """The metrics of the window's font: a table may not have heard yet that it changed."""
+    return QFontMetrics(QGuiApplication.font())
 
 
 @lru_cache(maxsize=64)

@@ -91,15 +91,12 @@ def test_a_prismatic_joint_and_missing_limits_are_shown_as_they_are(session_with
 
 
 def test_the_first_edit_makes_a_copy_and_the_arm_follows_at_once(panel, qtbot):
-    made = []
-    panel.robot_made.connect(made.append)
     session = panel._session
     original = session.robot
     type_into(panel, qtbot, SHOULDER, "a", "2*150,5".replace(",", "."))
     assert (session.robot.name, session.robot.title) == ("my-rv-m1", "my RV-M1")
     assert session.robot.joints[SHOULDER].a == pytest.approx(0.301)
     assert original.joints[SHOULDER].a == 0.25
-    assert [robot.name for robot in made] == ["my-rv-m1"]
     assert session.undo_stack.undoText() == "Edit a₂ of “shoulder” of my RV-M1"
     session.undo_stack.undo()
     assert session.robot is original
@@ -249,6 +246,13 @@ def test_the_offered_file_lies_in_the_users_folder(panel, monkeypatch, tmp_path)
     panel.edit_value(SHOULDER, "a", 0.3)
     panel.ask_and_save()
     assert offered == [str(tmp_path / "rvsim-user" / "robots" / "my-rv-m1.toml")]
+
+
+def test_another_arm_under_a_known_name_is_its_own_original(panel, session_with):
+    panel.edit_value(SHOULDER, "a", 0.3)
+    panel._session.use_robot(session_with("ur5e").robot.renamed("my-rv-m1", "my RV-M1"))
+    assert panel.original is panel._session.robot
+    assert not panel.findChild(QPushButton, "original_robot_button").isEnabled()
 
 
 def test_what_cannot_be_saved_or_opened_is_said_and_changes_nothing(panel, tmp_path):
