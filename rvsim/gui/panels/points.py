@@ -163,7 +163,7 @@ class PointsPanel(ReadOutPanel):
     def _fit_columns(self) -> None:
         """Wide enough for the longest number that the format can show, so that nothing jumps while the arm moves."""
         widest = format_number(-8888.0, self.model.shown.decimals)
-        width = text_metrics().horizontalAdvance(widest) + 16
+        width = text_metrics().horizontalAdvance(widest) + 9
         if width != self.table.columnWidth(1):
             for axis in (1, 2, 3):
                 self.table.setColumnWidth(axis, width)

@@ -18,7 +18,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.tool_edits import ToolEdit, moved_tool, turned_tool
 from rvsim.gui.widgets import column_of, combo, scrolled, select
 from rvsim.kinematics import forward_difference, forward_kinematics
-from rvsim.lab.texts import NamedValue, matrix_latex, matrix_numpy, matrix_text, values_latex, values_numpy, values_text
+from rvsim.lab.texts import NamedValue, matrix_latex, matrix_numpy, pose_text, values_latex, values_numpy, values_text
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -149,7 +149,7 @@ class ToolPanel(ReadOutPanel):
         self._T = forward_kinematics(robot, q)
         self.position.show_values(self._T[:3, 3])
         self._show_orientation(self._preferences["orientation"])
-        self._hide_message()
+        self.message.hide()
         self._show_second_way(robot, q)
 
     def _show_second_way(self, robot: Robot, q: FloatArray) -> None:
@@ -188,9 +188,6 @@ class ToolPanel(ReadOutPanel):
             self.message.setText(sentence)
             self.message.show()
             self._session.say(sentence, "warning")
-
-    def _hide_message(self) -> None:
-        self.message.hide()
 
     # --- editing ---------------------------------------------------------------------------------------------------
 
@@ -235,17 +232,27 @@ class ToolPanel(ReadOutPanel):
         scaled[:3, 3] *= display(length_kind(self._session.robot), self._preferences).factor
         return scaled
 
+    def _matrix_head(self) -> str:
+        unit = display(length_kind(self._session.robot), self._preferences).suffix.strip()
+        return f"T_base_tool, lengths in {unit}"
+
     def _is_matrix(self) -> bool:
         return bool(self._preferences["orientation"] == MATRIX)
 
     def _as_text(self) -> str:
-        return matrix_text(self._shown_matrix()) if self._is_matrix() else values_text(self._values())
+        if self._is_matrix():
+            return f"{self._matrix_head()}\n{pose_text(self._shown_matrix())}"
+        return values_text(self._values())
 
     def _as_numpy(self) -> str:
-        return matrix_numpy(self._shown_matrix()) if self._is_matrix() else values_numpy(self._values())
+        if self._is_matrix():
+            return f"# {self._matrix_head()}\n{matrix_numpy(self._shown_matrix())}"
+        return values_numpy(self._values())
 
     def _as_latex(self) -> str:
-        return matrix_latex(self._shown_matrix()) if self._is_matrix() else values_latex(self._values())
+        if self._is_matrix():
+            return f"% {self._matrix_head()}\n{matrix_latex(self._shown_matrix())}"
+        return values_latex(self._values())
 
 
 _ASCII_NAMES = {"φ": "phi", "θ": "theta", "ψ": "psi"}
