@@ -15,14 +15,16 @@ from rvsim.kinematics.forward import forward_kinematics
 from rvsim.kinematics.inverse.chain import TURN
 from rvsim.kinematics.inverse.copies import limit_copies
 from rvsim.kinematics.inverse.result import Nearest
-from rvsim.kinematics.jacobian import jacobian
+from rvsim.kinematics.jacobian import pose_and_jacobian
 from rvsim.robot import Robot
 from rvsim.spatial import rotation_error
 from rvsim.spatial.arrays import FloatArray
 
-_STARTS = 48
+_STARTS, _FEW_STARTS = 48, 16
 _PLACE_STEPS, _POSE_STEPS, _FINAL_STEPS = 60, 120, 20
 _PLACE_WEIGHT = 1e3  # the place over the angle, while both are improved together
+_DONE, _WORTH, _IDLE = 1e-13, 1e-7, 4  # over when for so many steps no start has gained that share of its error
+_IN_REACH = 1e-6  # of the size: a place approached so closely is in reach
 _SAME_PLACE = 1e-7  # of the size: position errors closer than this count as equal
 
 
@@ -49,13 +51,22 @@ def nearest_configuration(
     return _choose(robot, goal, near, q, place_only=place_only)
 
 
+def place_in_reach(robot: Robot, goal: FloatArray, near: FloatArray) -> bool:
+    """Whether the tool can be at the goal's place in some orientation, limits aside, as far as a search can tell."""
+    anywhere = np.tile([-np.inf, np.inf], (robot.dof, 1))
+    place = _Search(robot, goal, anywhere, np.repeat([1.0 / robot.size, 0.0], 3))
+    q = _descend(place, _starts(robot, near, anywhere, near[None])[:_FEW_STARTS], _PLACE_STEPS)
+    miss = np.linalg.norm(_places(robot, q) - goal[:3, 3], axis=1)
+    return bool(miss.min() <= _IN_REACH * robot.size)
+
+
 def _turn_towards(place: _Search, q: FloatArray) -> FloatArray:
     """From the nearest places: the least angle there, each start keeping to the best place found."""
     miss = np.linalg.norm(_places(place.robot, q) - place.goal[:3, 3], axis=1)
     goal = place.goal.copy()
     goal[:3, 3] = _places(place.robot, q[[np.argmin(miss)]])[0]
     weights = np.repeat([_PLACE_WEIGHT / place.robot.size, 1.0], 3)
-    turned = _descend(place._replace(goal=goal, weights=weights), q, _POSE_STEPS)
+    turned = _descend(place._replace(goal=goal, weights=weights), q.copy(), _POSE_STEPS)
     return np.concatenate([q, _descend(place._replace(goal=goal), turned, _FINAL_STEPS)])
 
 
@@ -75,38 +86,45 @@ def _places(robot: Robot, q: FloatArray) -> FloatArray:
     return np.asarray(forward_kinematics(robot, q)[:, :3, 3])
 
 
-def _errors(search: _Search, q: FloatArray) -> FloatArray:
-    """(k, 6) weighted errors, what is still to be moved and turned."""
-    T = forward_kinematics(search.robot, q)
-    turn = rotation_error(T[:, :3, :3], search.goal[:3, :3]) if search.weights[3] else np.zeros((len(q), 3))
-    return np.concatenate([search.goal[:3, 3] - T[:, :3, 3], turn], axis=1) * search.weights
+def _evaluate(search: _Search, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Weighted errors (k, 6), what is still to be moved and turned, and weighted Jacobians (k, 6, n)."""
+    T, J = pose_and_jacobian(search.robot, q)
+    errors = np.zeros((len(q), 6))
+    errors[:, :3] = search.goal[:3, 3] - T[:, :3, 3]
+    if search.weights[3]:
+        errors[:, 3:] = rotation_error(T[:, :3, :3], search.goal[:3, :3])
+    return errors * search.weights, J * search.weights[:, None]
 
 
 def _descend(search: _Search, q: FloatArray, steps: int) -> FloatArray:
     """Each row of q (k, n) improved; a step that does not improve is taken back and damped more."""
-    errors = _errors(search, q)
-    cost = np.linalg.norm(errors, axis=1)
-    damping = np.full(len(q), 0.5)
+    errors, J = _evaluate(search, q)
+    cost, damping, idle = np.linalg.norm(errors, axis=1), np.full(len(q), 0.5), 0
     for _ in range(steps):
-        moved = np.clip(q + _step(search, q, errors, damping), search.bounds[:, 0], search.bounds[:, 1])
-        new_errors = _errors(search, moved)
+        moved = np.clip(q + _step(search, q, errors, J, damping), search.bounds[:, 0], search.bounds[:, 1])
+        new_errors, new_J = _evaluate(search, moved)
         new_cost = np.linalg.norm(new_errors, axis=1)
         better = new_cost < cost
-        q, errors = np.where(better[:, None], moved, q), np.where(better[:, None], new_errors, errors)
-        cost = np.where(better, new_cost, cost)
+        worth = (new_cost < (1.0 - _WORTH) * cost) & (cost > _DONE)
+        q[better], errors[better], J[better], cost[better] = (
+            moved[better],
+            new_errors[better],
+            new_J[better],
+            new_cost[better],
+        )
         damping = np.clip(damping * np.where(better, 0.4, 4.0), 1e-6, 1e6)
-        if not better.any() and damping.min() > 1e3:
+        idle = 0 if worth.any() else idle + 1
+        if idle == _IDLE:
             break
     return q
 
 
-def _step(search: _Search, q: FloatArray, errors: FloatArray, damping: FloatArray) -> FloatArray:
+def _step(search: _Search, q: FloatArray, errors: FloatArray, J: FloatArray, damping: FloatArray) -> FloatArray:
     """Joint steps (k, n); a joint at its bound that would be pushed through it stays where it is."""
-    J = jacobian(search.robot, q) * search.weights[:, None]
     gradient = np.einsum("kij,ki->kj", J, errors)
     stuck = ((q <= search.bounds[:, 0]) & (gradient < 0.0)) | ((q >= search.bounds[:, 1]) & (gradient > 0.0))
-    J = np.where(stuck[:, None, :], 0.0, J)
-    normal = np.einsum("kij,kil->kjl", J, J)
+    free = np.where(stuck[:, None, :], 0.0, J)
+    normal = free.transpose(0, 2, 1) @ free
     scale = damping * np.linalg.norm(errors, axis=1) + 1e-14
     normal += scale[:, None, None] * np.eye(q.shape[1])
     return np.asarray(np.linalg.solve(normal, np.where(stuck, 0.0, gradient)[..., None])[..., 0])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 
@@ -12,15 +12,13 @@ from rvsim.kinematics.inverse.batch import frame_entries
 from rvsim.kinematics.inverse.closed_form import ClosedForm
 from rvsim.kinematics.inverse.explain import broken_limit, explain_limits, explain_orientation, explain_reach
 from rvsim.kinematics.inverse.five_axis import FiveAxis
-from rvsim.kinematics.inverse.nearest import nearest_configuration
+from rvsim.kinematics.inverse.nearest import nearest_configuration, place_in_reach
 from rvsim.kinematics.inverse.projection import has_tip_on_roll_axis, nearest_orientation
 from rvsim.kinematics.inverse.result import Branch, Failure, Nearest, in_order
 from rvsim.kinematics.inverse.task import POSE_ENTRIES, Candidates, candidates
 from rvsim.kinematics.inverse.verdict import branches_of
 from rvsim.spatial import rotation_error_angle
 from rvsim.spatial.arrays import FloatArray
-
-_IN_REACH = 1e-6  # of the size: a search that comes this close has reached the place
 
 Search = Callable[[], Nearest]
 
@@ -45,8 +43,8 @@ def reach_failure(form: ClosedForm, found: Candidates, here: FloatArray, order: 
     """No branch exists: not at this place, or not in this orientation there. Limits are not asked."""
     robot = form.chain.robot
     anywhere = np.tile([-np.inf, np.inf], (robot.dof, 1))
-    search = cache(partial(_search, form, found, here, anywhere, here[None]))  # asked for the kind and the pose
-    if found.entries == POSE_ENTRIES and form.task == "pose" and _reaches(form, found.T_goal, search):
+    search = partial(_search, form, found, here, anywhere, here[None])
+    if form.task == "pose" and found.entries == POSE_ENTRIES and _reaches(form, found.T_goal, here):
         return Failure("orientation", partial(_nearest_turn, form, found, here, order, search), explain_orientation)
     return Failure("reach", search, partial(explain_reach, robot))
 
@@ -56,11 +54,11 @@ def _search(form: ClosedForm, found: Candidates, here: FloatArray, bounds: Float
     return nearest_configuration(form.chain.robot, found.T_goal, here, bounds, starts, place_only=place_only)
 
 
-def _reaches(form: ClosedForm, T: FloatArray, search: Search) -> bool:
+def _reaches(form: ClosedForm, T: FloatArray, here: FloatArray) -> bool:
     """Whether the place is in reach: the family knows, or a search finds it."""
     place = frame_entries(form.chain, T[None], flange=False)[:, 3, 0]
     known = form.reaches(place)
-    return search().position_error <= _IN_REACH * form.chain.size if known is None else known
+    return place_in_reach(form.chain.robot, T, here) if known is None else known
 
 
 def _nearest_turn(
