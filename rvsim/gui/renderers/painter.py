@@ -169,9 +169,8 @@ class PainterRenderer(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Paints, and reports the time that it took."""
         begin = time.perf_counter()
-        painter = QPainter(self)
-        paint_scene(painter, self._scene, self._camera, self.width(), self.height())
-        painter.end()
+        with QPainter(self) as painter:  # it must end even when something breaks, or Qt aborts
+            paint_scene(painter, self._scene, self._camera, self.width(), self.height())
         if self._report is not None:
             self._report(1e3 * (time.perf_counter() - begin))
 
@@ -179,7 +178,6 @@ class PainterRenderer(QWidget):
 def scene_image(scene: Scene, camera: Camera, width: int, height: int, ratio: float = 1.0) -> QImage:
     """A picture of width × height device-independent pixels, `ratio` device pixels each."""
     image = _clear_image(width, height, ratio)
-    painter = QPainter(image)
-    paint_scene(painter, scene, camera, width, height)
-    painter.end()
+    with QPainter(image) as painter:
+        paint_scene(painter, scene, camera, width, height)
     return image

@@ -70,11 +70,10 @@ def text_picture(text: str, color: Color, size: float, halo: Color, ratio: float
     picture.fill(Qt.GlobalColor.transparent)
     path = QPainterPath()
     path.addText(QPointF(_HALO, _HALO + metrics.ascent()), font, text)
-    painter = QPainter(picture)
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    painter.strokePath(path, pen(halo.faded(0.85), _HALO))
-    painter.fillPath(path, qcolor(color))
-    painter.end()
+    with QPainter(picture) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.strokePath(path, pen(halo.faded(0.85), _HALO))
+        painter.fillPath(path, qcolor(color))
     return picture
 
 

@@ -76,8 +76,8 @@ class SolidPicture(NamedTuple):
     def hides(self, pixels: FloatArray, depth: FloatArray) -> NDArray[np.bool_]:
         """(n,) which points at pixels (n, 2) and a depth (n,) lie behind a solid."""
         height, width = self.depth.shape
-        columns = np.floor((pixels[:, 0] - self.raster.left) * self.raster.scale).astype(int)
-        rows = np.floor((pixels[:, 1] - self.raster.top) * self.raster.scale).astype(int)
+        places = np.floor((pixels - (self.raster.left, self.raster.top)) * self.raster.scale)
+        columns, rows = np.clip(np.nan_to_num(places, nan=-1.0), -1.0, 1e6).astype(int).T
         inside = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height)
         solid = np.full(len(depth), np.inf)
         solid[inside] = self.depth[rows[inside], columns[inside]]

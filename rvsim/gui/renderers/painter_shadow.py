@@ -67,13 +67,12 @@ def _region(outlines: list[FloatArray], lens: Lens) -> tuple[float, float, int, 
 
 def _fill(mask: NDArray[np.uint8], width: int, height: int, outlines: list[FloatArray]) -> None:
     image = QImage(mask.data, width, height, mask.shape[1], QImage.Format.Format_Alpha8)
-    painter = QPainter(image)
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(Qt.GlobalColor.black)
-    for outline in outlines:
-        painter.drawPolygon(polygon(outline))
-    painter.end()
+    with QPainter(image) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(Qt.GlobalColor.black)
+        for outline in outlines:
+            painter.drawPolygon(polygon(outline))
 
 
 def _blurred(mask: NDArray[np.uint8]) -> FloatArray:
