@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rvsim.kinematics.forward import forward_kinematics
 from rvsim.kinematics.inverse import free_pitch_batch, inverse_kinematics_batch, inverse_tasks
@@ -18,8 +20,8 @@ from rvsim.robot.arrays import FloatArray
 
 # A free pitch is sampled this finely [rad].
 _PITCH_STEP = np.radians(1.5)
-# Of all sampled orientations and branches so many are kept for the choice; their number enters it squared.
-_KEPT = 48
+# Among columns that reach as much, the one nearer to the present pose.
+_NEARNESS = 1e-6
 _SAME_PLACE = 1e-7
 
 
@@ -61,21 +63,31 @@ def _free(robot: Robot, points: FloatArray, near: FloatArray) -> FloatArray:
     return q.reshape(len(points), -1, robot.dof)
 
 
-def thinned(q: FloatArray, near: FloatArray, joints: JointRange) -> FloatArray:
-    """(m, k, n) the most useful of sampled branches (m, s, n): those that reach most points not yet reached often."""
-    if q.shape[1] <= _KEPT:
-        return q
+def useful_columns(q: FloatArray, near: FloatArray, joints: JointRange, before: Sequence[int], most: int) -> list[int]:
+    """At most `most` columns of sampled branches q (m, s, n): those that reach the points not yet reached often.
+
+    Args:
+        before: the columns chosen for the points before: those that still exist are kept, up to half of `most`, so that
+            a sequence can go on in them.
+    """
+    if q.shape[1] <= most:
+        return list(range(q.shape[1]))
     exists = existing(q)
-    step = np.linalg.norm(joints.nearest_copy(q, near) - near, axis=2)
-    distance = np.where(exists.any(axis=0), np.nanmean(np.where(exists, step, 0.0), axis=0), 1e9)
-    covered = np.zeros(len(q))
-    kept: list[int] = []
-    for _ in range(_KEPT):
-        score = exists.T @ (1.0 / (1.0 + covered)) - 1e-6 * distance
+    kept = [column for column in before if exists[:, column].any()][: most // 2]
+    covered = exists[:, kept].sum(axis=1).astype(np.float64)
+    distance = _mean_distance(q, exists, near, joints)
+    while len(kept) < most:
+        score = exists.T @ (1.0 / (1.0 + covered)) - _NEARNESS * distance
         score[kept] = -np.inf
         kept.append(int(np.argmax(score)))
         covered += exists[:, kept[-1]]
-    return np.asarray(q[:, sorted(kept)])
+    return kept
+
+
+def _mean_distance(q: FloatArray, exists: NDArray[np.bool_], near: FloatArray, joints: JointRange) -> FloatArray:
+    """(s,) how far from `near` the branches of a column are on average, 0 where there are none."""
+    step = np.where(exists, np.linalg.norm(joints.nearest_copy(q, near) - near, axis=2), 0.0)
+    return np.asarray(step.sum(axis=0) / np.maximum(exists.sum(axis=0), 1))
 
 
 def _as_it_is(robot: Robot, points: FloatArray, near: FloatArray) -> FloatArray:

@@ -20,8 +20,8 @@ from rvsim.spatial.rotation_vectors import rotation_from_vector, rotation_vector
 _BESIDE, _FAR = 0.05, 0.75
 # The same for the tool's orientation [rad].
 _TILT, _FAR_TILT = 0.1, 1.5
-# What counts as the same place, in sizes of the arm.
-_SAME_PLACE = 1e-7
+# What nobody would call a deviation, and what is a rounding, in sizes of the arm.
+_NEGLIGIBLE, _SAME_PLACE = 1e-4, 1e-7
 _HALVINGS = 8
 # Newton's method: its steps, the longest of them [rad, sizes], how near is near enough, in lengths of the way.
 _STEPS, _LONGEST_STEP, _NEAR_ENOUGH = 20, 0.5, 1e-3
@@ -58,8 +58,8 @@ def beside(
     squared = np.maximum(np.sum(chord**2, axis=-1), 1e-300)
     along = np.clip(np.sum(way * chord, axis=-1) / squared, 0.0, 1.0)
     sideways, length = np.linalg.norm(way - along[:, None] * chord, axis=-1), np.sqrt(squared)
-    same = _SAME_PLACE * robot.size
-    near, far = sideways <= _BESIDE * length + same, sideways > _FAR * length + same
+    least = _NEGLIGIBLE * robot.size
+    near, far = sideways <= _BESIDE * length + least, sideways > _FAR * length + least
     if with_rotation:
         tilt = _tilt(start[:, :3, :3], middle[:, :3, :3], end[:, :3, :3])
         near, far = near & (tilt <= _TILT), far | (tilt > _FAR_TILT)

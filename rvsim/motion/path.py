@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from rvsim.errors import ShapeError
 from rvsim.robot.arrays import FloatArray, frozen_array
@@ -61,6 +61,11 @@ class Path:
         if self.rotations is not None:
             T[:, :3, :3] = self.rotations
         return T
+
+    def part(self, which: slice | NDArray[np.intp]) -> Path:
+        """Some of its points, with the same name."""
+        rotations = None if self.rotations is None else self.rotations[which]
+        return replace(self, points=self.points[which], rotations=rotations)
 
     def with_rotation(self, rotation: ArrayLike | None) -> Path:
         """The same places with one orientation (3, 3) for all, one each (m, 3, 3), or None for a free one."""

@@ -6,6 +6,7 @@ jumps count first, then the length of the way in joint space, the way from the p
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,10 +89,9 @@ def _first(q: FloatArray, near: FloatArray, joints: JointRange, weights: FloatAr
 
 def _steps(
     robot: Robot, q: FloatArray, adjacent: NDArray[np.bool_], joints: JointRange, with_rotation: bool
-) -> list[tuple[FloatArray, NDArray[np.bool_]]]:
+) -> Iterator[tuple[FloatArray, NDArray[np.bool_]]]:
     """For each pair of successive points the joint steps (s, s, n) and whether each keeps to the path (s, s)."""
     T = forward_kinematics(robot, q)
-    steps = []
     block = max(_BLOCK // q.shape[1] ** 2, 1)
     for first in range(0, len(q) - 1, block):
         last = min(first + block, len(q) - 1)
@@ -100,8 +100,7 @@ def _steps(
         asked = existing(step) & adjacent[first:last, None, None]
         kept = np.zeros(asked.shape, dtype=bool)
         kept[asked] = _kept(robot, T[first : last + 1], asked, here, step, with_rotation)
-        steps += list(zip(step, kept, strict=True))
-    return steps
+        yield from zip(step, kept, strict=True)
 
 
 def _kept(

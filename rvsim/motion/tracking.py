@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rvsim.kinematics.forward import forward_kinematics
-from rvsim.motion.candidates import branches_on, thinned
+from rvsim.motion.candidates import branches_on, useful_columns
 from rvsim.motion.continuity import continuous
 from rvsim.motion.path import Path
 from rvsim.motion.reasons import limit_culprit
@@ -18,6 +17,10 @@ from rvsim.motion.tracking_result import Tracking, Unreached, UnreachedKind
 from rvsim.motion.turns import JointRange, existing
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
+
+# How many points are solved at a time, and how many sampled branches of a point go into the choice: they enter squared.
+_BLOCK = 256
+_MOST = 48
 
 __all__ = ["Tracking", "Unreached", "UnreachedKind", "track"]
 
@@ -39,16 +42,14 @@ def track(robot: Robot, path: Path, *, near: ArrayLike | None = None, ignore_lim
     start = perf_counter()
     present = robot.home if near is None else frozen_array("near", near, (robot.dof,))
     joints = JointRange.of(robot, ignore_limits)
-    branches = branches_on(robot, path, present)
-    usable = thinned(_within(branches, present, joints), present, joints)
     with_rotation = path.rotations is not None and robot.dof > 3
-    q = best_sequence(robot, usable, present, joints, with_rotation)
+    q = best_sequence(robot, _usable(robot, path, present, joints), present, joints, with_rotation)
     elapsed = perf_counter() - start
     return Tracking(
         robot,
         path,
         q,
-        unreached=_reasons(robot, path, branches, q, present),
+        unreached=_reasons(robot, path, np.flatnonzero(~existing(q)), present),
         actual=_tool_points(robot, q),
         jumps=find_jumps(robot, q, with_rotation),
         solve_seconds=elapsed,
@@ -60,6 +61,22 @@ def find_jumps(robot: Robot, q: FloatArray, with_rotation: bool) -> tuple[int, .
     """The indices of poses (m, n) that follow the pose before only by leaving the tool's straight way."""
     pairs = np.flatnonzero(existing(q[1:] + q[:-1]))
     return tuple(int(i) + 1 for i in pairs[~continuous(robot, q[pairs], q[pairs + 1], with_rotation)])
+
+
+def _usable(robot: Robot, path: Path, near: FloatArray, joints: JointRange) -> FloatArray:
+    """(m, s, n) the branches within the limits, of a sampled orientation the most useful ones.
+
+    Block by block: a free orientation has hundreds of branches a point.
+    """
+    most = _MOST if path.samples <= _BLOCK else _MOST // 2
+    pieces: list[FloatArray] = []
+    columns: list[int] = []
+    for first in range(0, path.samples, _BLOCK):
+        branches = branches_on(robot, path.part(slice(first, first + _BLOCK)), near)
+        usable = _within(branches, near, joints)
+        columns = useful_columns(usable, near, joints, columns, most)
+        pieces.append(usable[:, columns])
+    return np.concatenate(pieces)
 
 
 def _within(branches: FloatArray, near: FloatArray, joints: JointRange) -> FloatArray:
@@ -77,27 +94,26 @@ def _tool_points(robot: Robot, q: FloatArray) -> FloatArray:
     return points
 
 
-def _reasons(robot: Robot, path: Path, branches: FloatArray, q: FloatArray, near: FloatArray) -> tuple[Unreached, ...]:
-    missed = np.flatnonzero(~existing(q))
-    exists = _some_branch(branches)
-    reachable = _reachable_places(robot, path, missed[~exists[missed]], near)
-    return tuple(
-        limit_culprit(robot, int(i), branches[i])
-        if exists[i]
-        else Unreached(int(i), "orientation" if i in reachable else "reach")
-        for i in missed
-    )
+def _reasons(robot: Robot, path: Path, missed: NDArray[np.intp], near: FloatArray) -> tuple[Unreached, ...]:
+    """Why the points of these indices were missed."""
+    reasons: list[Unreached] = []
+    for first in range(0, len(missed), _BLOCK):
+        indices = missed[first : first + _BLOCK]
+        piece = path.part(indices)
+        branches = branches_on(robot, piece, near)
+        reachable = _reachable(robot, piece, branches, near)
+        reasons += [
+            limit_culprit(robot, int(index), found)
+            if existing(found).any()
+            else Unreached(int(index), "orientation" if place else "reach")
+            for index, found, place in zip(indices, branches, reachable, strict=True)
+        ]
+    return tuple(reasons)
 
 
-def _reachable_places(robot: Robot, path: Path, indices: NDArray[np.intp], near: FloatArray) -> frozenset[int]:
-    """Those of the points that the tool could reach in some other orientation, limits left out of account."""
-    if path.rotations is None or not len(indices):
-        return frozenset()
-    free = replace(path, points=path.points[indices], rotations=None)
-    exists = _some_branch(branches_on(robot, free, near))
-    return frozenset(int(i) for i in indices[exists])
-
-
-def _some_branch(branches: FloatArray) -> NDArray[np.bool_]:
-    """(m,) whether a point has any branch."""
-    return np.asarray(existing(branches).any(axis=1))
+def _reachable(robot: Robot, path: Path, branches: FloatArray, near: FloatArray) -> NDArray[np.bool_]:
+    """(m,) whether the arm could be at each point in some orientation, limits left out of account."""
+    some = np.asarray(existing(branches).any(axis=1))
+    if path.rotations is not None and not some.all():
+        some |= existing(branches_on(robot, path.with_rotation(None), near)).any(axis=1)
+    return some
