@@ -27,6 +27,7 @@ from rvsim.kinematics import (
     inverse_kinematics_batch,
     jacobian,
     link_transforms,
+    solve_numeric_batch,
 )
 from rvsim.robot import Robot
 
@@ -43,4 +44,5 @@ __all__ = [
     "link_transforms",
     "load_robot",
     "robot_names",
+    "solve_numeric_batch",
 ]

@@ -28,10 +28,12 @@ from rvsim.kinematics.inverse import (
     limit_margins,
 )
 from rvsim.kinematics.jacobian import PoseAndJacobian, jacobian, pose_and_jacobian
+from rvsim.kinematics.numeric import BatchResult, solve_numeric_batch
 
 __all__ = [
     "DEFAULT_ORDER",
     "ORDER_CRITERIA",
+    "BatchResult",
     "Branch",
     "Failure",
     "ForwardDifference",
@@ -58,4 +60,5 @@ __all__ = [
     "pose_and_jacobian",
     "product_of_exponentials",
     "screw_axes",
+    "solve_numeric_batch",
 ]

@@ -46,19 +46,19 @@ def pose_and_jacobian(robot: Robot, q: ArrayLike) -> PoseAndJacobian:
 @lru_cache(maxsize=64)
 def _jacobian_player(robot: Robot) -> Player:
     tape = Tape(robot.dof)
-    _, entries = _recorded(robot, tape)
+    _, entries = record_pose_and_jacobian(robot, tape)
     return tape.player(entries, (6, robot.dof))
 
 
 @lru_cache(maxsize=64)
 def _both_player(robot: Robot) -> Player:
     tape = Tape(robot.dof)
-    tool, entries = _recorded(robot, tape)
+    tool, entries = record_pose_and_jacobian(robot, tape)
     return tape.player([*tool.entries, *entries], (16 + 6 * robot.dof,))
 
 
-def _recorded(robot: Robot, tape: Tape) -> tuple[Frame, list[Number]]:
-    """The tool's frame and the entries of J, row by row."""
+def record_pose_and_jacobian(robot: Robot, tape: Tape) -> tuple[Frame, list[Number]]:
+    """Write both on a tape: the tool's frame, and the entries of J row by row."""
     walk = Walk(tape, robot.T_base_0)
     axes = [walk.pass_joint(robot, index) for index in range(robot.dof)]
     walk.pass_transform(robot.T_flange_tool)
