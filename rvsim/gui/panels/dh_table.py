@@ -31,7 +31,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_quantity, joint_kind
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import button, column_of, scrolled
+from rvsim.gui.widgets import ElidedLabel, button, column_of, scrolled
 from rvsim.lab.texts import matrix_latex, matrix_numpy, table_tsv
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -58,7 +58,7 @@ class DHTablePanel(ReadOutPanel):
         self.model.refused.connect(self._complain)
         self.rows = self._table("dh_table", "DH table", DH_COLUMNS)
         self.limits = self._table("limits_table", "Joint limits and home", LIMIT_COLUMNS)
-        self.title, self.convention, self.message, self.legend = QLabel(), QLabel(), QLabel(), QLabel()
+        self.title, self.convention, self.message, self.legend = ElidedLabel(), QLabel(), QLabel(), QLabel()
         formats = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
         self.copy = CopyButton("dh_copy", "the DH table", formats, session)
         self.save = button("save_robot_button", "Save as robot file…", "Keep this arm in a file", self.ask_and_save)
@@ -103,7 +103,6 @@ class DHTablePanel(ReadOutPanel):
         set_role(self.title, role="title")
         set_role(self.convention, role="muted")
         set_role(self.legend, role="muted")
-        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.message.hide()
         head = QHBoxLayout()
         head.addWidget(self.title, 1)
@@ -147,9 +146,9 @@ class DHTablePanel(ReadOutPanel):
         for table in (self.rows, self.limits):
             fit_height(table)
             table.setMinimumHeight(table.maximumHeight())
-        edited = robot.name != original.name
-        self.title.setText(f"{robot.title}, from the {original.title}" if edited else robot.title)
-        self.convention.setText(CONVENTION_SENTENCES[robot.convention])
+        self.title.setText(robot.title)
+        origin = f"Edited copy of the {original.title}.\n" if robot.name != original.name else ""
+        self.convention.setText(origin + CONVENTION_SENTENCES[robot.convention])
         self.legend.setText(self._legend(robot))
         self.back.setEnabled(self._differs(robot, original))
         self.message.hide()

@@ -15,7 +15,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_quantity, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import column_of, scrolled
+from rvsim.gui.widgets import ElidedLabel, column_of, scrolled
 from rvsim.kinematics import joint_transforms, link_transforms
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
 from rvsim.robot import Convention, Robot
@@ -72,7 +72,7 @@ class TransformSection(QWidget):
         super().__init__()
         self._session, self._preferences = session, preferences
         self._matrix: FloatArray = np.eye(4)
-        self.title, self.formula, self.note = QLabel(), QLabel(), QLabel()
+        self.title, self.formula, self.note = ElidedLabel(), QLabel(), QLabel()
         self.view = MatrixView(preferences, title)
         self.view.setObjectName(f"{name}_matrix")
         self.formula.setObjectName(f"{name}_formula")
@@ -91,7 +91,6 @@ class TransformSection(QWidget):
         for label in (self.formula, self.note):
             label.setWordWrap(True)
             label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
-        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         head = QHBoxLayout()
         head.addWidget(self.title, 1)
         head.addWidget(self.copy)

@@ -97,6 +97,7 @@ def test_the_first_edit_makes_a_copy_and_the_arm_follows_at_once(panel, qtbot):
     assert (session.robot.name, session.robot.title) == ("my-rv-m1", "my RV-M1")
     assert session.robot.joints[SHOULDER].a == pytest.approx(0.301)
     assert original.joints[SHOULDER].a == 0.25
+    assert "Edited copy of the Mitsubishi RV-M1." in panel.findChild(QLabel, "dh_convention").text()
     assert session.undo_stack.undoText() == "Edit a₂ of “shoulder” of my RV-M1"
     session.undo_stack.undo()
     assert session.robot is original
