@@ -13,7 +13,7 @@ from rvsim.kinematics.inverse.projection import nearest_orientation
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray, floats
 
-BLOCK = 4096  # poses; measured: smaller pays for calls, larger falls out of the cache
+BLOCK = 8192  # poses; measured: smaller pays for calls, larger falls out of the cache
 _IDENTITY = np.eye(4)
 
 

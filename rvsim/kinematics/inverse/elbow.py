@@ -55,6 +55,14 @@ def links_reach(distance: float, a2: float, a3: float, last: float) -> bool:
     return max(0.0, 2.0 * longest - rest) - slack <= distance <= rest + slack
 
 
+def empty_rows(*shape: int) -> FloatArray:
+    """An array (..., m) for values yet to come, whose rows do not fall on the same lines of the cache.
+
+    Rows a multiple of 4096 bytes apart would: reading one entry of each costs three times as much.
+    """
+    return np.empty((*shape[:-1], shape[-1] + (0 if shape[-1] % 512 else 8)))[..., : shape[-1]]
+
+
 def erase(branches: FloatArray, missing: Mask) -> None:
     """NaN in every joint (..., m) of the poses (m,) that have no solution."""
     if missing.any():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rvsim.kinematics.inverse.chain import Chain
-from rvsim.kinematics.inverse.elbow import COSINE_TOLERANCE, erase
+from rvsim.kinematics.inverse.elbow import COSINE_TOLERANCE, empty_rows, erase
 from rvsim.kinematics.inverse.waist import solve_waist
 from rvsim.kinematics.inverse.words import combine, side_names
 from rvsim.spatial.arrays import FloatArray
@@ -26,7 +26,7 @@ def solve_extension(
     """
     x, y, z = place
     waist = solve_waist(x, y, offset, chain.size, free)
-    theta1, theta2, extension = np.empty((3, 4, x.size))
+    theta1, theta2, extension = empty_rows(3, 4, x.size)
     for k, side in enumerate(waist.sides):
         u, w = side.out - chain.a[0], z - chain.d[0]
         square = u * u + w * w - across * across

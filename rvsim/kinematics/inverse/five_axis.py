@@ -14,7 +14,7 @@ import numpy as np
 
 from rvsim.kinematics.inverse.chain import Chain
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, is_zero, long_enough, parallel, right_angle
-from rvsim.kinematics.inverse.elbow import Elbow, Mask, elbow_up, erase, links_reach, solve_elbow
+from rvsim.kinematics.inverse.elbow import Elbow, Mask, elbow_up, empty_rows, erase, links_reach, solve_elbow
 from rvsim.kinematics.inverse.projection import has_tip_on_roll_axis
 from rvsim.kinematics.inverse.words import ELBOW, combine, side_names
 from rvsim.spatial.arrays import FloatArray
@@ -61,7 +61,7 @@ class FiveAxis(ClosedForm):
         (xx, xy, _), (yx, yy, _), (ax, ay, az), (x, y, z) = (S[:, j] for j in range(4))
         plane = tool_plane(x, y, ax, ay, self.chain.size, float(free[0]))
         r, ar = x * plane.x + y * plane.y, ax * plane.x + ay * plane.y
-        q = np.empty((4, 5, x.size))
+        q = empty_rows(4, 5, x.size)
         q[:2, 0] = np.arctan2(plane.y, plane.x)
         q[:2, 4] = np.arctan2(xx * plane.y - xy * plane.x, yx * plane.y - yy * plane.x)
         q[2:, 0], q[2:, 4] = q[0, 0] + math.pi, q[0, 4] + math.pi

@@ -21,7 +21,7 @@ from rvsim.kinematics.inverse.closed_form import (
     parallel,
     right_angle,
 )
-from rvsim.kinematics.inverse.elbow import erase
+from rvsim.kinematics.inverse.elbow import empty_rows, erase
 from rvsim.kinematics.inverse.extension import extension_labels, solve_extension
 from rvsim.kinematics.inverse.five_axis import FEASIBLE, tool_plane
 from rvsim.spatial.arrays import FloatArray
@@ -58,7 +58,7 @@ class RollAndExtend(ClosedForm):
         front = ar * w - az * (r - self.a1) - self.a2
         back = az * (r + self.a1) - ar * w - self.a2
         side = np.where(np.abs(front) <= np.abs(back), 1.0, -1.0)
-        q = np.empty((1, 4, x.size))
+        q = empty_rows(1, 4, x.size)
         dx, dy, ar = side * plane.x, side * plane.y, side * ar
         q[0, 0], q[0, 1] = np.arctan2(dy, dx), np.arctan2(ar, -az)
         q[0, 2] = np.arctan2(xx * dy - xy * dx, yx * dy - yy * dx) - self.chain.theta[3]
@@ -77,7 +77,7 @@ class RollAndExtend(ClosedForm):
         chain, tip = self.chain, self.chain.T_n_tool[:3, 3]
         c, s = math.cos(theta3 + chain.theta[3]), math.sin(theta3 + chain.theta[3])
         along, aside = c * tip[0] - s * tip[1], s * tip[0] + c * tip[1]
-        q = np.empty((4, 4, place.shape[1]))
+        q = empty_rows(4, 4, place.shape[1])
         q[:, 0], q[:, 1], length = solve_extension(chain, place, float(chain.a[1] + along), float(aside), free)
         q[:, 2], q[:, 3] = theta3, length - chain.d[2] - tip[2]
         q[np.broadcast_to(np.isnan(length)[:, None], q.shape)] = np.nan

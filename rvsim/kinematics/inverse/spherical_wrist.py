@@ -13,7 +13,7 @@ import numpy as np
 
 from rvsim.kinematics.inverse.chain import Chain
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, intersecting, is_zero, right_angle
-from rvsim.kinematics.inverse.elbow import links_reach
+from rvsim.kinematics.inverse.elbow import empty_rows, links_reach
 from rvsim.kinematics.inverse.regional import Regional, regional_conditions
 from rvsim.kinematics.inverse.trigonometry import cosine_and_sine
 from rvsim.kinematics.inverse.waist import Side
@@ -55,9 +55,9 @@ class SphericalWrist(ClosedForm):
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
         """The wrist's centre gives θ1, θ2, θ3; the rotation that is left gives the wrist."""
-        arm = np.empty((4, 3, S.shape[2]))
+        arm = empty_rows(4, 3, S.shape[2])
         waist = self.regional.solve(S[:, 3] - self.d6 * S[:, 2], arm, float(free[0]))
-        q = np.empty((4, 2, 6, S.shape[2]))
+        q = empty_rows(4, 2, 6, S.shape[2])
         q[:, :, :3] = arm[:, None]
         for k, side in enumerate(waist.sides):
             in_plane = plane_entries(S, side)
@@ -68,7 +68,7 @@ class SphericalWrist(ClosedForm):
 
 def plane_entries(S: FloatArray, side: Side) -> FloatArray:
     """The rotations' columns (3, 3, m) along the arm's plane outwards, up, and along the plane's normal."""
-    entries = np.empty((3, 3, S.shape[2]))
+    entries = empty_rows(3, 3, S.shape[2])
     np.add(side.c * S[0, :3], side.s * S[1, :3], out=entries[0])
     entries[1] = S[2, :3]
     np.subtract(side.s * S[0, :3], side.c * S[1, :3], out=entries[2])

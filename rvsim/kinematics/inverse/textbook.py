@@ -12,7 +12,7 @@ import numpy as np
 
 from rvsim.kinematics.inverse.chain import Chain
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, is_zero, long_enough, parallel, right_angle
-from rvsim.kinematics.inverse.elbow import erase, solve_elbow
+from rvsim.kinematics.inverse.elbow import empty_rows, erase, solve_elbow
 from rvsim.kinematics.inverse.extension import extension_labels, solve_extension
 from rvsim.kinematics.inverse.regional import Regional, regional_conditions
 from rvsim.kinematics.inverse.waist import solve_waist
@@ -41,7 +41,7 @@ class Planar(ClosedForm):
         tip_x, tip_y = self.chain.T_n_tool[:2, 3]
         elbow = solve_elbow(S[0, 3], S[1, 3], float(self.chain.a[0]), math.hypot(tip_x, tip_y))
         up = -math.copysign(1.0, self.chain.a[0])
-        q = np.empty((2, 2, S.shape[2]))
+        q = empty_rows(2, 2, S.shape[2])
         for branch, sign in zip(q, (up, -up), strict=True):
             branch[0] = elbow.direction - sign * elbow.lean
             branch[1] = sign * elbow.bend - math.atan2(tip_y, tip_x)
@@ -71,7 +71,7 @@ class Articulated(ClosedForm):
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
         """Two sides, two elbows."""
-        q = np.empty((4, 3, S.shape[2]))
+        q = empty_rows(4, 3, S.shape[2])
         self.regional.solve(S[:, 3], q, float(free[0]))
         return q
 
@@ -99,7 +99,7 @@ class Spherical(ClosedForm):
         chain, tip = self.chain, self.chain.T_n_tool[:3, 3]
         c, s = math.cos(chain.theta[2]), math.sin(chain.theta[2])
         across, offset = chain.a[1] + c * tip[0] - s * tip[1], chain.d[1] + s * tip[0] + c * tip[1]
-        q = np.empty((4, 3, S.shape[2]))
+        q = empty_rows(4, 3, S.shape[2])
         q[:, 0], q[:, 1], length = solve_extension(chain, S[:, 3], float(across), float(offset), float(free[0]))
         q[:, 2] = length - tip[2]
         q[np.broadcast_to(np.isnan(length)[:, None], q.shape)] = np.nan
@@ -132,7 +132,7 @@ class Scara(ClosedForm):
         link = _second_link(chain)
         elbow = solve_elbow(x, y, float(chain.a[0]), abs(link))
         left = -math.copysign(1.0, chain.a[0])
-        q = np.empty((2, 4, S.shape[2]))
+        q = empty_rows(2, 4, S.shape[2])
         for branch, sign in zip(q, (left, -left), strict=True):
             branch[0] = elbow.direction - sign * elbow.lean
             branch[1] = sign * elbow.bend - math.atan2(link.imag, link.real)
@@ -179,7 +179,7 @@ class Cylindrical(ClosedForm):
         ox, oy = self.outward[:2]
         offset = self.origin[0] * oy - self.origin[1] * ox
         waist = solve_waist(x, y, 0.0 if is_zero(offset) else float(offset), self.chain.size, float(free[0]))
-        q = np.empty((2, 3, x.size))
+        q = empty_rows(2, 3, x.size)
         for branch, side in zip(q, waist.sides, strict=True):
             branch[0] = side.theta1 - math.atan2(oy, ox)
             branch[1] = z - self.origin[2]

@@ -13,7 +13,7 @@ import numpy as np
 
 from rvsim.kinematics.inverse.chain import Chain, wrap
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, intersecting, long_enough, parallel, right_angle
-from rvsim.kinematics.inverse.elbow import Mask, elbow_up, erase, solve_elbow
+from rvsim.kinematics.inverse.elbow import Mask, elbow_up, empty_rows, erase, solve_elbow
 from rvsim.kinematics.inverse.spherical_wrist import plane_entries
 from rvsim.kinematics.inverse.waist import Side, solve_waist
 from rvsim.kinematics.inverse.words import ELBOW, combine, side_names, wrist_names
@@ -51,7 +51,7 @@ class ParallelAxes(ClosedForm):
         """Shoulder, then wrist, then elbow."""
         x, y, z = S[:, 3] - self.d6 * S[:, 2]
         waist = solve_waist(x, y, self.offset, self.chain.size, float(free[0]))
-        q = np.empty((2, 2, 2, 6, x.size))
+        q = empty_rows(2, 2, 2, 6, x.size)
         for k, side in enumerate(waist.sides):
             q[k, :, :, 0] = side.theta1
             self._solve_side(S, side, z - self.d1, q[k], waist.missing, (-1.0) ** k * self.up, float(free[5]))
