@@ -188,8 +188,8 @@ def named_path(
 
     Args:
         samples: the number of points; None for the source's own. A file keeps its points.
-        orientation: None for the path's own: that of its source; of a line that of the arm's first preset; of a file
-            free.
+        orientation: None or "source" for the path's own: that of its source; of a line and a star that of the arm's
+            first line; of a file free.
         height: of the letter divided by 40, whose source gives none [m].
         start, end: (3,) of the line [m]; None for those of the arm's first preset.
         q: (n,) the pose whose orientation "keep" keeps; None for home.
@@ -200,11 +200,11 @@ def named_path(
         OSError: the file cannot be read.
     """
     if name.lower().endswith(".csv"):
-        return oriented(robot, _from_file(name), orientation or "free", None, q)
+        return oriented(robot, _from_file(name), _or_own(orientation, "free"), None, q)
     entry = path_entry(name)
     points = entry.draw(_Wish(robot, samples, height, start, end))
     path = Path(entry.name, points, title=entry.title, notes=entry.citation)
-    return oriented(robot, path, orientation or _own_orientation(entry, robot), entry.rotations, q)
+    return oriented(robot, path, _or_own(orientation, _own_orientation(entry, robot)), entry.rotations, q)
 
 
 def line_of(robot: Robot, task: LineTask, q: ArrayLike | None = None) -> Path:
@@ -212,6 +212,10 @@ def line_of(robot: Robot, task: LineTask, q: ArrayLike | None = None) -> Path:
     return named_path(
         "line", robot, samples=task.samples, orientation=task.orientation, start=task.start, end=task.end, q=q
     )
+
+
+def _or_own(orientation: PathOrientation | None, own: PathOrientation) -> PathOrientation:
+    return own if orientation in (None, "source") else orientation
 
 
 def _own_orientation(entry: NamedPath, robot: Robot) -> PathOrientation:

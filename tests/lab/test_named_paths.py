@@ -58,6 +58,7 @@ def test_orientations_are_those_of_the_sources_unless_asked_otherwise() -> None:
     assert flat.rotations is not None
     assert np.array_equal(flat.rotations[7], np.diag([1.0, -1.0, -1.0]))
     assert named_path("letter-flat", rv_m1, orientation="free").rotations is None
+    assert named_path("star", load_robot("rrrp"), orientation="source").rotations is None
     assert named_path("line", load_robot("articulated"), orientation="down").rotations is None
 
 
