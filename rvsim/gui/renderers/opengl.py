@@ -7,17 +7,18 @@ from time import perf_counter
 from typing import NamedTuple
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QRect, Qt, QTimer, Signal
 from PySide6.QtGui import QImage, QMatrix4x4, QOpenGLContext, QSurfaceFormat
 from PySide6.QtOpenGL import QOpenGLFramebufferObject, QOpenGLFramebufferObjectFormat
 from PySide6.QtWidgets import QWidget
 
 from rvsim.errors import RvsimError
 from rvsim.gui.renderers.opengl_binding import GL, GLViewWidget
-from rvsim.gui.renderers.opengl_bodies import BodyLayer, GhostLayer, PlateLayer, ShadowLayer, unit_bodies
+from rvsim.gui.renderers.opengl_bodies import BodyLayer, GhostLayer, PlateLayer, unit_bodies
 from rvsim.gui.renderers.opengl_context import probe_opengl
 from rvsim.gui.renderers.opengl_frame import Frame, to_qt
 from rvsim.gui.renderers.opengl_labels import LabelLayer
+from rvsim.gui.renderers.opengl_shadow import ShadowLayer
 from rvsim.gui.renderers.opengl_strokes import StrokeLayer
 from rvsim.gui.renderers.painter_ink import qcolor
 from rvsim.scene import Box, Camera, Capsule, Color, Dots, Labels, Polyline, Scene, Segments, Triads
@@ -26,6 +27,7 @@ from rvsim.scene.palette import DARK, LIGHT, luminance
 
 _PROOF = 16  # pixels
 _PICTURE_SAMPLES = 4
+_REST = 150  # milliseconds
 _LINES = (Polyline, Segments, Dots)
 _START = Camera(np.zeros(3), 3.0)
 
@@ -92,20 +94,26 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._sample(samples)
+        self._samples = samples
+        self._set_format()
         self.camera = _START
         self.frame: Frame | None = None
         self._layers = _new_layers()
         for layer in self._layers:
             self.addItem(layer)
         self._broken = False
-        self.paint_began = 0.0
+        # Without multisampling edges are rough while something moves, and smoothed when all is at rest.
+        self._at_rest = False
+        self._rest = QTimer(self, singleShot=True, interval=_REST)
+        self._rest.timeout.connect(self._smooth)
+        self._began: float | None = None
+        self.report: Callable[[float], None] | None = None
+        self.frameSwapped.connect(self._tell_time)
 
-    def _sample(self, samples: int) -> None:
+    def _set_format(self) -> None:
         surface = QSurfaceFormat(QSurfaceFormat.defaultFormat())
-        surface.setSamples(samples)
+        surface.setSamples(self._samples)
         surface.setDepthBufferSize(24)
-        surface.setStencilBufferSize(8)
         self.setFormat(surface)
 
     def show_scene(self, scene: Scene) -> None:
@@ -124,6 +132,13 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
         layers.frames.show_items((item for item in things if isinstance(item, Triads)), background)
         layers.texts.show_items((item for item in scene.items if isinstance(item, Labels | Triads)), background)
         self.setBackgroundColor(qcolor(background))
+        self._at_rest = False
+
+    def look_from(self, camera: Camera) -> None:
+        """Look from elsewhere at the next paint."""
+        self.camera = camera
+        self._at_rest = False
+        self.update()
 
     # --- pyqtgraph's hooks -----------------------------------------------------------------------------------------
 
@@ -148,9 +163,30 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
 
     def paintGL(self) -> None:
         """Paint, and say so the first time that it fails."""
-        self.paint_began = perf_counter()
+        self._began = None if self._at_rest else perf_counter()
         if not self._broken:
-            self._guarded(self._paint)
+            self._guarded(self._paint_smoothly if self._at_rest else self._paint)
+        if not self._at_rest and not self._samples:
+            self._rest.start()
+
+    def _smooth(self) -> None:
+        self._at_rest = True
+        self.update()
+
+    def _paint_smoothly(self) -> None:
+        width, height = self.deviceWidth(), self.deviceHeight()
+        canvas = _canvas(width, height, _PICTURE_SAMPLES)
+        self._paint()
+        canvas.release()
+        everything = QRect(0, 0, width, height)
+        # Without a target it is the view's own.
+        QOpenGLFramebufferObject.blitFramebuffer(None, everything, canvas, everything)  # type: ignore[call-overload]
+
+    def _tell_time(self) -> None:
+        # The window swaps frames for its other widgets too: those are not ours to report.
+        if self._began is not None and self.report is not None:
+            self.report(1e3 * (perf_counter() - self._began))
+        self._began = None
 
     def _guarded(self, act: Callable[[], None]) -> None:
         # An exception must not leave a paint event: whatever the driver does, the window lives on with the painter.
@@ -238,8 +274,7 @@ class OpenGLRenderer:
 
     def set_camera(self, camera: Camera) -> None:
         """Look from elsewhere at the next paint."""
-        self._view.camera = camera
-        self._view.update()
+        self._view.look_from(camera)
 
     def image(self) -> QImage:
         """The picture as it would be painted now, texts included, in the pixels of the screen, with smooth edges."""
@@ -247,4 +282,4 @@ class OpenGLRenderer:
 
     def on_painted(self, report: Callable[[float], None]) -> None:
         """From now on `report(milliseconds)` is called after each frame: from the first call until it is shown."""
-        self._view.frameSwapped.connect(lambda: report(1e3 * (perf_counter() - self._view.paint_began)))
+        self._view.report = report

@@ -13,13 +13,12 @@ from rvsim.gui.renderers.opengl_buffers import BODY_LAYOUT, Pipeline, Vertices
 from rvsim.gui.renderers.opengl_frame import Frame, blend, to_qt, use_depth
 from rvsim.gui.renderers.opengl_meshes import box_body, capsule_body, capsule_transform
 from rvsim.gui.renderers.opengl_shaders import body_program
-from rvsim.scene import Box, Capsule, Color
+from rvsim.scene import Box, Capsule
 
 Body = Capsule | Box
 
-# The shadow is drawn once for each of these widths, so that it is softer towards its rim.
-_SOFTNESS = (1.5, 1.15, 0.8)
-_ONTO_FLOOR = QMatrix4x4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1)
+# How much darker the edges of a box are.
+_EDGES = 0.1
 
 
 class Placed(NamedTuple):
@@ -100,18 +99,13 @@ class BodyLayer(GLGraphicsItem):  # type: ignore[misc]
             alike = [body for body in bodies if body.shape == shape]
             if alike:
                 pipeline.read_from(vertices)
-                pipeline.set_number("gloss", 1.0 if shape == "capsule" else 0.3)
-                pipeline.set_number("edges", 0.0 if shape == "capsule" else 0.14)
+                pipeline.set_number("edges", 0.0 if shape == "capsule" else _EDGES)
             for body in alike:
                 pipeline.set_color("color", body.item.color)
-                _stretch(pipeline, body, frame.view, 1.0)
+                pipeline.set_matrix("model_view", frame.view * body.place)
+                pipeline.set_vector("scale", *body.scale)
+                pipeline.set_number("stretch", body.stretch)
                 frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)
-
-
-def _stretch(pipeline: Pipeline, body: Placed, view: QMatrix4x4, wider: float) -> None:
-    pipeline.set_matrix("model_view", view * body.place)
-    pipeline.set_vector("scale", *(wider * edge for edge in body.scale))
-    pipeline.set_number("stretch", body.stretch)
 
 
 class PlateLayer(BodyLayer):
@@ -142,40 +136,3 @@ class GhostLayer(BodyLayer):
             self._draw_bodies(pane, frame, pipeline)
             gl.glClear(GL.GL_DEPTH_BUFFER_BIT)
         gl.glDisable(GL.GL_CULL_FACE)
-
-
-class ShadowLayer(BodyLayer):
-    """The soft shadow of the bodies on the floor, as if the light stood right above."""
-
-    def __init__(self, units: dict[str, Vertices]) -> None:
-        super().__init__(units)
-        self._color = Color(0.0, 0.0, 0.0)
-
-    def show_shadow(self, bodies: dict[str, Placed], color: Color) -> None:
-        """Show the shadow of exactly these."""
-        self._color = color.faded(1.0 / len(_SOFTNESS))
-        self.placed = bodies
-
-    def draw(self, frame: Frame, pipeline: Pipeline) -> None:
-        """Draw all bodies flat; the stencil lets each width darken a pixel once."""
-        gl = frame.functions
-        use_depth(gl, False)
-        blend(gl)
-        gl.glEnable(GL.GL_STENCIL_TEST)
-        gl.glClear(GL.GL_STENCIL_BUFFER_BIT)
-        gl.glStencilOp(GL.GL_KEEP, GL.GL_KEEP, GL.GL_INCR)
-        pipeline.set_number("lit", 0.0)
-        pipeline.set_color("color", self._color)
-        for order, width in enumerate(_SOFTNESS):
-            gl.glStencilFunc(GL.GL_EQUAL, order, 0xFF)
-            self._draw_flat(frame, pipeline, width)
-        gl.glDisable(GL.GL_STENCIL_TEST)
-
-    def _draw_flat(self, frame: Frame, pipeline: Pipeline, width: float) -> None:
-        on_floor = frame.view * _ONTO_FLOOR
-        for shape, vertices in self._units.items():
-            pipeline.read_from(vertices)
-            wider = width if shape == "capsule" else 0.75 + 0.25 * width
-            for body in (body for body in self.placed.values() if body.shape == shape):
-                _stretch(pipeline, body, on_floor, wider)
-                frame.functions.glDrawArrays(GL.GL_TRIANGLES, 0, vertices.count)

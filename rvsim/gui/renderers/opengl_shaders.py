@@ -1,4 +1,4 @@
-"""The two shader programs, for compatibility profiles from OpenGL 2.1 on and for core profiles alike."""
+"""The shader programs, for compatibility profiles from OpenGL 2.1 on and for core profiles alike."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _CORE = QSurfaceFormat.OpenGLContextProfile.CoreProfile
 _OLD_WORDS = {"vertex": "#version 120\n", "fragment": "#version 120\n#define result gl_FragColor\n"}
 _CORE_WORDS = {
     "vertex": "#version 140\n#define attribute in\n#define varying out\n",
-    "fragment": "#version 140\n#define varying in\nout vec4 result;\n",
+    "fragment": "#version 140\n#define varying in\n#define texture2D texture\nout vec4 result;\n",
 }
 
 # A body is stretched here, before it is placed: `end` moves one half of a capsule away, so that its caps stay round.
@@ -38,7 +38,6 @@ void main() {
 BODY_FRAGMENT = """
 uniform vec4 color;
 uniform float lit;
-uniform float gloss;
 uniform float edges;
 varying vec3 eye_normal;
 varying vec3 own_normal;
@@ -51,14 +50,18 @@ float to_edge() {
 }
 
 void main() {
+    if (lit < 0.5) {
+        result = color;
+        return;
+    }
     vec3 n = normalize(eye_normal);
     vec3 light = normalize(vec3(-0.42, 0.68, 0.60));
     vec3 halfway = normalize(light + vec3(0.0, 0.0, 1.0));
-    float matt = 0.46 + 0.50 * max(dot(n, light), 0.0) + 0.10 * n.y;
-    float shine = 0.30 * gloss * pow(max(dot(n, halfway), 0.0), 22.0);
+    float matt = 0.54 + 0.44 * max(dot(n, light), 0.0) + 0.09 * n.y;
+    float shine = 0.26 * pow(max(dot(n, halfway), 0.0), 16.0);
     vec3 shaded = color.rgb * matt + shine * (1.0 - 0.5 * color.rgb);
     if (edges > 0.0) shaded *= 1.0 - edges * clamp(1.5 - to_edge(), 0.0, 1.0);
-    result = vec4(mix(color.rgb, shaded, lit), color.a);
+    result = vec4(shaded, color.a);
 }
 """
 
@@ -169,6 +172,36 @@ void main() {
 """
 
 
+# A tent of nine taps along one direction: as two box blurs of five. Without a stride, the picture as it is.
+BLUR_VERTEX = """
+attribute vec2 corner;
+varying vec2 place;
+void main() {
+    place = 0.5 * corner + 0.5;
+    gl_Position = vec4(corner, 0.0, 1.0);
+}
+"""
+
+BLUR_FRAGMENT = """
+uniform sampler2D picture;
+uniform vec2 stride;
+uniform vec4 color;
+varying vec2 place;
+void main() {
+    float sum = 0.0;
+    if (stride.x + stride.y == 0.0) {
+        sum = texture2D(picture, place).a;
+    } else {
+        for (int i = -4; i <= 4; i++) {
+            sum += (5.0 - abs(float(i))) / 25.0 * texture2D(picture, place + float(i) * stride).a;
+        }
+    }
+    if (sum < 0.002) discard;
+    result = vec4(color.rgb, color.a * sum);
+}
+"""
+
+
 class ShaderError(RvsimError):
     """The driver refuses a shader program."""
 
@@ -185,6 +218,11 @@ def body_program() -> QOpenGLShaderProgram:
 def stroke_program() -> QOpenGLShaderProgram:
     """For lines and dots; the context must be current."""
     return _program("stroke", STROKE_VERTEX, STROKE_FRAGMENT, "start")
+
+
+def blur_program() -> QOpenGLShaderProgram:
+    """For the shadow; the context must be current."""
+    return _program("blur", BLUR_VERTEX, BLUR_FRAGMENT, "corner")
 
 
 def _program(name: str, vertex: str, fragment: str, first: str) -> QOpenGLShaderProgram:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from types import SimpleNamespace
@@ -105,7 +106,8 @@ def test_who_draws_with_the_painter_never_waits_for_opengl() -> None:
         "renderer_factory(choice)(QWidget())\n"
         "print(sorted(name for name in sys.modules if name.split('.')[0] in ('OpenGL', 'pyqtgraph')))\n"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60)
+    plain = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
+    done = subprocess.run([sys.executable, "-c", program], env=plain, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
 
 

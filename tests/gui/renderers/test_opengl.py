@@ -208,6 +208,42 @@ def test_ghosts_of_one_alpha_are_one_pane_of_glass(view: Picture) -> None:
     np.testing.assert_allclose(seen, 0.3 * solid + 0.7, atol=0.02)
 
 
+def test_a_body_above_the_floor_has_its_shadow_on_it_but_none_without_a_floor(view: Picture) -> None:
+    camera = CAMERA.from_preset("side")
+    camera = replace(camera, elevation=0.9)
+    raised = np.eye(4)
+    raised[2, 3] = 0.8
+    body = Box("body", raised, np.array([0.6, 0.6, 0.2]), RED)
+    floor = Box("floor.plate", np.eye(4), np.array([3.0, 3.0, 0.01]), WHITE)
+    below, beside = (0.0, 0.0, 0.0), (0.9, 0.0, 0.0)
+    shaded = view.of(floor, body, camera=camera)
+    assert at(shaded, below, camera).max() < at(shaded, beside, camera).min() - 0.05
+    floating = view.of(replace(body, key="other"), camera=camera)
+    np.testing.assert_allclose(at(floating, below, camera), at(floating, beside, camera))
+
+
+def test_the_floor_hides_nothing(view: Picture) -> None:
+    camera = replace(CAMERA, elevation=-0.6)
+    floor = Box("floor.plate", np.eye(4), np.array([3.0, 3.0, 0.01]), WHITE)
+    dot = Dots("dot", np.array([[0.0, 0.0, 0.3]]), BLUE, 12.0)
+    assert at(view.of(floor, dot, camera=camera), dot.points[0], camera)[0] < 0.3
+
+
+def test_edges_are_smooth_in_a_picture_and_on_a_screen_at_rest(view: Picture, qtbot: QtBot) -> None:
+    turned = np.eye(4)
+    turned[1:3, 1:3] = [[np.cos(0.3), -np.sin(0.3)], [np.sin(0.3), np.cos(0.3)]]
+    picture = view.of(Box("body", turned, np.array([0.2, 1.0, 1.0]), Color(0.0, 0.0, 0.0)), camera=FRONT)
+
+    def shades(colours: Pixels) -> int:
+        return len(np.unique(np.rint(colours[:, :, 1] * 50)))
+
+    def on_screen() -> Pixels:
+        return pixels(view.window.screen().grabWindow(view.window.winId()).toImage())
+
+    assert shades(picture) > 4
+    qtbot.waitUntil(lambda: shades(on_screen()) > 4)
+
+
 # --- texts ---------------------------------------------------------------------------------------------------------
 
 
