@@ -10,6 +10,7 @@
     ├── FileWriteError         a file that cannot be written, with its path and the reason
     ├── ExpressionError        a typed value that is no number
     ├── PoseError              a 4 × 4 matrix that is no pose of a tool
+    ├── SettingError           a setting of a solver outside what it may be
     ├── NoClosedFormError      an arm whose inverse kinematics has no closed form here
     └── NoMassDataError        dynamics asked of an arm without masses
 
@@ -114,6 +115,14 @@ class PoseError(RvsimError, ValueError):
     def __init__(self, what: str) -> None:
         self.what = what
         super().__init__(f"This matrix is no pose: {what}")
+
+
+class SettingError(RvsimError, ValueError):
+    """A setting of a solver outside what it may be; `rule` completes "must be …"."""
+
+    def __init__(self, name: str, found: object, rule: str) -> None:
+        self.name, self.found, self.rule = name, found, rule
+        super().__init__(f"{name} must be {rule}, but is {found!r}.")
 
 
 class NoClosedFormError(RvsimError):

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from rvsim.errors import UnknownNameError
+from rvsim.errors import SettingError, UnknownNameError
 
 Task = Literal["pose", "position"]
 Solver = Literal["newton", "dls", "lm", "bfgs"]
@@ -36,7 +36,7 @@ class SolverOptions:
         length: the distance that counts as one [m]; 0.1 weighs as source 000 does, whose lengths are decimetres.
         position_tolerance, rotation_tolerance: what a solution must keep [m], [rad].
         damping: λ of damped least squares [dls].
-        step_limit: the largest joint motion of one step [rad, m]; longer steps are shortened [all but bfgs].
+        step_limit: the largest joint motion of one step [rad, m]; longer steps are shortened.
         patience: ends a try whose best cost has not fallen by a hundredth in so many iterations.
         seed: of the random restarts.
     """
@@ -63,9 +63,9 @@ class SolverOptions:
     def __post_init__(self) -> None:
         for name in _POSITIVE:
             if not getattr(self, name) > 0.0:
-                raise ValueError(f"{name} must be above 0, but is {getattr(self, name)!r}.")
+                raise SettingError(name, getattr(self, name), "above 0")
         if len(self.weights) != 6 or not all(0.0 <= weight < math.inf for weight in self.weights):
-            raise ValueError(f"weights must be six numbers of at least 0, but are {self.weights!r}.")
+            raise SettingError("weights", self.weights, "six numbers of at least 0")
 
 
 _POSITIVE = ("max_iterations", "max_time", "length", "position_tolerance", "rotation_tolerance", "step_limit")
