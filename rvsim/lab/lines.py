@@ -14,6 +14,7 @@ from rvsim.lab.orientations import oriented
 from rvsim.motion import Path, line_path, track
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
+from rvsim.robot.edits import original_name
 from rvsim.units import metres_from_millimetres
 
 
@@ -66,13 +67,13 @@ _ORIENTATIONS: tuple[PathOrientation, ...] = ("keep", "free")
 
 def line_presets(robot: Robot) -> tuple[LinePreset, ...]:
     """The lines offered for an arm, the one that succeeds first; for an arm of one's own, one found by trying."""
-    rows = _LINES.get(robot.name)
+    rows = _LINES.get(original_name(robot))
     return tuple(map(_preset, rows)) if rows else (_found_line(robot),)
 
 
 def default_experiment(robot: Robot) -> Experiment:
     """An arm at home with a line that it can draw."""
-    letters = TrajectoryTask() if robot.name == "rv-m1" else TrajectoryTask("star")
+    letters = TrajectoryTask() if original_name(robot) == "rv-m1" else TrajectoryTask("star")
     return Experiment(robot, robot.home, line_presets(robot)[0].task(), letters)
 
 

@@ -19,6 +19,7 @@ from rvsim.lab.path_file import read_path
 from rvsim.motion import Path, line_path
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
+from rvsim.robot.edits import original_name
 
 
 class _Wish(NamedTuple):
@@ -159,7 +160,7 @@ _BY_NAME = {entry.name: entry for entry in _TABLE}
 
 def path_names(robot: Robot | None = None) -> tuple[str, ...]:
     """The names of all paths, or of those that are meant for an arm."""
-    return tuple(e.name for e in _TABLE if robot is None or not e.arms or robot.name in e.arms)
+    return tuple(e.name for e in _TABLE if robot is None or not e.arms or original_name(robot) in e.arms)
 
 
 def path_entry(name: str) -> NamedPath:

@@ -15,8 +15,14 @@ from rvsim.robot.shape import BoxShape, CapsuleShape, Shape
 
 DHKey = Literal["theta", "d", "a", "alpha", "lower", "upper", "home"]
 DH_KEYS: tuple[DHKey, ...] = get_args(DHKey)
+OWN_PREFIX = "my-"  # an edited copy of "rv-m1" is named "my-rv-m1"
 _GEOMETRY = ("theta", "d", "a", "alpha")
 _EDITED = "of the link before its DH row was edited"
+
+
+def original_name(robot: Robot) -> str:
+    """The name of the arm that this one is an edited copy of; its own name if it is none."""
+    return robot.name.removeprefix(OWN_PREFIX)
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,6 +29,7 @@ from rvsim.lab.lines import LinePreset, line_presets
 from rvsim.lab.named_paths import path_entry, path_names
 from rvsim.lab.sentences import tracking_sentence
 from rvsim.motion import Tracking
+from rvsim.robot import Robot
 
 _LINE_ORIENTATIONS = {"down": "Tool straight down", "free": "Tool tilts as it likes", "keep": "Tool as it is now"}
 _PATH_ORIENTATIONS = {"source": "As in the source", **_LINE_ORIENTATIONS}
@@ -42,6 +43,7 @@ class LineSection(QGroupBox):
     def __init__(self, session: Session, preferences: Preferences, tracker: PathTracker) -> None:
         super().__init__("Line")
         self._session = session
+        self._known_presets: dict[str, tuple[LinePreset, ...]] = {}
         self.presets = combo("line_preset", "Line presets")
         self.presets.activated.connect(self._on_preset)
         self.boxes = {end: [self._box(end, axis, preferences) for axis in _AXES] for end in ("start", "end")}
@@ -104,7 +106,7 @@ class LineSection(QGroupBox):
         self._show_presets(experiment)
 
     def _show_presets(self, experiment: Experiment) -> None:
-        presets = line_presets(experiment.robot)
+        presets = self._presets_of(experiment.robot)
         with QSignalBlocker(self.presets):
             self.presets.clear()
             self.presets.addItem("Your own", None)
@@ -112,6 +114,12 @@ class LineSection(QGroupBox):
                 self.presets.addItem(preset.title, preset)
             same = [i for i, preset in enumerate(presets, 1) if _same_line(preset, experiment.line)]
             self.presets.setCurrentIndex(same[0] if same else 0)
+
+    def _presets_of(self, robot: Robot) -> tuple[LinePreset, ...]:
+        """Looked for once an arm: an arm that is being edited keeps those that it began with."""
+        if robot.name not in self._known_presets:
+            self._known_presets[robot.name] = line_presets(robot)
+        return self._known_presets[robot.name]
 
     def _on_preset(self, index: int) -> None:
         preset = self.presets.itemData(index)

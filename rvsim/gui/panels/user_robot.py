@@ -10,14 +10,14 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from rvsim.errors import RvsimError
 from rvsim.files import load_robot, save_robot, user_robot_path
 from rvsim.robot import Robot
+from rvsim.robot.edits import OWN_PREFIX
 
 _FILTER = "Robot files (*.toml)"
-_PREFIX = "my-"
 
 
 def is_own(robot: Robot) -> bool:
     """Whether this arm is the user's own already."""
-    return robot.name.startswith(_PREFIX)
+    return robot.name.startswith(OWN_PREFIX)
 
 
 def own_copy(robot: Robot) -> Robot:
@@ -25,7 +25,7 @@ def own_copy(robot: Robot) -> Robot:
     if is_own(robot):
         return robot
     source = f"edited copy of {robot.title}" + (f"; {robot.source}" if robot.source else "")
-    return replace(robot.renamed(f"{_PREFIX}{robot.name}", f"my {short_title(robot)}"), source=source)
+    return replace(robot.renamed(f"{OWN_PREFIX}{robot.name}", f"my {short_title(robot)}"), source=source)
 
 
 def short_title(robot: Robot) -> str:
