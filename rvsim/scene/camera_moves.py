@@ -15,10 +15,10 @@ FloatArray = NDArray[np.float64]
 # The reach of an arm is round: eight directions at three heights hold it, while the corners of its box stay empty.
 _TURN = np.linspace(0.0, math.tau, 8, endpoint=False) + math.pi / 8
 _OCTAGON = np.stack([np.cos(_TURN), np.sin(_TURN)], axis=1) / math.cos(math.pi / 8)
-_RINGS = ((-1.0, 1.27), (0.2, 1.0), (1.0, 0.35))  # (height, width), each relative to half the box
+_RINGS = ((-1.0, 1.33), (0.2, 1.0), (1.0, 0.35))  # (height, width), each relative to half the box
 
 
-def framed(camera: Camera, bounds: ArrayLike, width: float, height: float, margin: float = 0.03) -> Camera:
+def framed(camera: Camera, bounds: ArrayLike, width: float, height: float, margin: float = 0.04) -> Camera:
     """From the same direction, with what an arm reaches inside `bounds` (2, 3) [m] in the middle and as large as fits.
 
     Each side of the picture is a plane through the eye; the planes are moved until they touch the outermost points.

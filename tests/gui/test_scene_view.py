@@ -106,7 +106,11 @@ def test_a_double_click_centres_on_what_is_under_the_pointer(view: SceneView, qt
 def test_a_drawn_box_fills_the_view_once(view: SceneView, qtbot: QtBot) -> None:
     before = view.camera
     view.begin_box_zoom()
-    _drag(view, qtbot, LEFT, (280, 210), (360, 270))
+    plain = view.grab().toImage()
+    qtbot.mousePress(view, LEFT, NONE, QPoint(280, 210))
+    qtbot.mouseMove(view, QPoint(360, 270))
+    assert view.grab().toImage().pixelColor(300, 230) != plain.pixelColor(300, 230)  # the box is seen while it is drawn
+    qtbot.mouseRelease(view, LEFT, NONE, QPoint(360, 270))
     assert view.camera.distance == pytest.approx(before.distance / 8.0)
     zoomed = view.camera
     _drag(view, qtbot, LEFT, (300, 200), (340, 220))  # the next drag orbits again

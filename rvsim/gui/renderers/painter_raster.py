@@ -15,14 +15,25 @@ from PySide6.QtGui import QImage, QPainter
 
 from rvsim.gui.renderers.painter_lens import Lens, Seen
 from rvsim.gui.renderers.painter_light import PixelArray, SingleArray
-from rvsim.gui.renderers.painter_solids import FACES, Body, FlatBody, Hits, Rays, RoundBody, Solid, body_of, pixel_box
+from rvsim.gui.renderers.painter_solids import (
+    FACES,
+    Body,
+    FlatBody,
+    Hits,
+    Rays,
+    RoundBody,
+    Solid,
+    body_of,
+    face_pixels,
+    pixel_box,
+)
 
 FloatArray = NDArray[np.float64]
 IdArray = NDArray[np.int16]
 BitArray = NDArray[np.uint64]
 
 _NOTHING = -1
-_MOST_RAYS = 420_000  # more than these make a coarser picture, smoothly enlarged
+_MOST_RAYS = 320_000  # more than these make a coarser picture, smoothly enlarged
 _SUBPIXELS = np.array([(0.125, 0.375), (0.625, 0.125), (0.875, 0.625), (0.375, 0.875)], dtype=np.float32)
 
 
@@ -95,8 +106,9 @@ def render_solids(solids: list[Seen[Solid]], lens: Lens, ratio: float) -> SolidP
     ids = np.full((raster.height, raster.width), _NOTHING, dtype=np.int16)
     for number, part in enumerate(parts):
         _trace(part, number, raster, depth, ids)
-    pixels = _shade(parts, raster, depth, ids)
-    _smooth_edges(parts, raster, ids, pixels)
+    table = _face_table(parts)
+    pixels = _shade(parts, raster, table, depth, ids)
+    _smooth_edges(parts, raster, table, ids, pixels)
     return SolidPicture(pixels, depth, raster)
 
 
@@ -150,16 +162,16 @@ def _met(part: _Part, raster: _Raster, columns: SingleArray, rows: SingleArray) 
 
 
 def _face_table(parts: list[_Part]) -> PixelArray:
-    """The pixel of each surface number; the last one, for −1, is clear."""
-    clear = np.zeros(FACES, dtype=np.uint32)
-    bodies = [part.body for part in parts]
-    faces = [body.face_pixels() if isinstance(body, FlatBody) else clear for body in bodies]
-    return np.concatenate([*faces, clear])
+    """The pixel of each surface number, where a surface has but one; clear for the last one, −1, and what is round."""
+    table = np.zeros((len(parts) + 1, FACES), dtype=np.uint32)
+    flat = {number: part.body for number, part in enumerate(parts) if isinstance(part.body, FlatBody)}
+    table[list(flat)] = face_pixels(list(flat.values()))
+    return table.reshape(-1)
 
 
-def _shade(parts: list[_Part], raster: _Raster, depth: SingleArray, ids: IdArray) -> PixelArray:
+def _shade(parts: list[_Part], raster: _Raster, table: PixelArray, depth: SingleArray, ids: IdArray) -> PixelArray:
     """(h, w) the colours of what each pixel of the raster shows."""
-    pixels: PixelArray = _face_table(parts)[ids]
+    pixels: PixelArray = table[ids]
     for number, part in enumerate(parts):
         if isinstance(part.body, RoundBody):
             rows, columns = np.nonzero(ids[part.rows, part.columns] == FACES * number)
@@ -170,7 +182,7 @@ def _shade(parts: list[_Part], raster: _Raster, depth: SingleArray, ids: IdArray
     return pixels
 
 
-def _smooth_edges(parts: list[_Part], raster: _Raster, ids: IdArray, pixels: PixelArray) -> None:
+def _smooth_edges(parts: list[_Part], raster: _Raster, table: PixelArray, ids: IdArray, pixels: PixelArray) -> None:
     """Where neighbours show different surfaces, several rays a pixel are averaged."""
     rows, columns, around = _edges(ids)
     if not len(rows):
@@ -183,7 +195,7 @@ def _smooth_edges(parts: list[_Part], raster: _Raster, ids: IdArray, pixels: Pix
     for number, (part, mine) in enumerate(zip(parts, concerned, strict=True)):
         if len(mine):
             _trace_scattered(number, mine, _met(part, raster, x[mine], y[mine]), depth, found)
-    colors = _face_table(parts)[found]
+    colors = table[found]
     for number, (part, mine) in enumerate(zip(parts, concerned, strict=True)):
         shown = mine[found[mine] == FACES * number]
         if len(shown) and isinstance(part.body, RoundBody):

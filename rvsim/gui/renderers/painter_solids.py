@@ -116,14 +116,22 @@ class FlatBody:
         reach = half * np.abs(speed)
         return -middle - reach, reach - middle
 
-    def face_pixels(self) -> PixelArray:
-        """(3,) the pixel of each face: a flat face has one colour."""
-        normals = self.outward[:, None] * self.axes
-        facing, halfway, upward = (np.asarray(normals @ light, np.float32) for light in (LIGHT, HALFWAY, UPWARD))
-        return lit(self.color, facing, _FLAT_SHINE * halfway, upward)
+    def normals(self) -> SingleArray:
+        """(3, 3) of the three faces that can be seen."""
+        outward: SingleArray = self.outward[:, None] * self.axes
+        return outward
 
 
 Body = RoundBody | FlatBody
+
+
+def face_pixels(bodies: list[FlatBody]) -> PixelArray:
+    """(k, 3) the pixels of the faces of boxes: a flat face has one colour."""
+    if not bodies:
+        return np.empty((0, FACES), dtype=np.uint32)
+    normals = np.concatenate([body.normals() for body in bodies])
+    colors = np.repeat(np.array([body.color[:3] for body in bodies], dtype=np.float32), FACES, axis=0)
+    return lit(colors, normals @ LIGHT, _FLAT_SHINE * (normals @ HALFWAY), normals @ UPWARD).reshape(-1, FACES)
 
 
 def _dot(vector: SingleArray, point: tuple[SingleArray, SingleArray, SingleArray]) -> SingleArray:

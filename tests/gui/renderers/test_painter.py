@@ -122,6 +122,13 @@ def test_a_line_behind_a_solid_is_hidden_and_one_before_it_is_seen() -> None:
         assert (row[WIDTH // 2 + 60] == _rgb(GREEN)).all()
 
 
+@pytest.mark.parametrize("solids", [(), (_ball(-0.5, RED),)])
+def test_a_line_of_many_points_looks_like_one_of_few(solids: tuple[Item, ...]) -> None:
+    few, many = (np.linspace((0.5, -1.0, -0.5), (0.5, 1.0, 0.7), count) for count in (2, 6000))
+    one, other = (_painted(*solids, Polyline("line", points, GREEN, 2.0)) for points in (few, many))
+    assert np.abs(one - other).mean() < 0.1
+
+
 def test_a_ghost_lets_the_background_through_by_its_alpha() -> None:
     opaque, ghost = (_painted(_ball(0.0, color))[HEIGHT // 2, WIDTH // 2] for color in (RED, RED.faded(0.3)))
     expected = 0.3 * opaque + 0.7 * _rgb(LIGHT.background)
