@@ -27,6 +27,7 @@ from rvsim.kinematics import (
     inverse_kinematics_batch,
     jacobian,
     link_transforms,
+    solve_numeric,
     solve_numeric_batch,
 )
 from rvsim.robot import Robot
@@ -44,5 +45,6 @@ __all__ = [
     "link_transforms",
     "load_robot",
     "robot_names",
+    "solve_numeric",
     "solve_numeric_batch",
 ]

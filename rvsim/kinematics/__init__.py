@@ -28,20 +28,38 @@ from rvsim.kinematics.inverse import (
     limit_margins,
 )
 from rvsim.kinematics.jacobian import PoseAndJacobian, jacobian, pose_and_jacobian
-from rvsim.kinematics.numeric import BatchResult, solve_numeric_batch
+from rvsim.kinematics.numeric import (
+    AS_IN_SOURCE_000,
+    AS_IN_SOURCE_002,
+    SOLVERS,
+    BatchResult,
+    History,
+    NumericResult,
+    Preset,
+    SolverOptions,
+    solve_numeric,
+    solve_numeric_batch,
+)
 
 __all__ = [
+    "AS_IN_SOURCE_000",
+    "AS_IN_SOURCE_002",
     "DEFAULT_ORDER",
     "ORDER_CRITERIA",
+    "SOLVERS",
     "BatchResult",
     "Branch",
     "Failure",
     "ForwardDifference",
+    "History",
     "InverseResult",
     "LimitCopies",
     "Nearest",
+    "NumericResult",
     "PoseAndJacobian",
+    "Preset",
     "ProductOfExponentials",
+    "SolverOptions",
     "branch_labels",
     "dh_transform",
     "forward_by_exponentials",
@@ -60,5 +78,6 @@ __all__ = [
     "pose_and_jacobian",
     "product_of_exponentials",
     "screw_axes",
+    "solve_numeric",
     "solve_numeric_batch",
 ]

@@ -55,7 +55,7 @@ class SolverOptions:
     length: float = 1.0
     position_tolerance: float = 1e-6
     rotation_tolerance: float = 1e-6
-    damping: float = 0.01
+    damping: float = 0.003
     step_limit: float = 1.0
     patience: int = 40
     seed: int = 0
