@@ -32,12 +32,17 @@ def solve_elbow(u: FloatArray, w: FloatArray, a2: float, a3: float) -> Elbow:
     half = 0.5 / (a2 * a3)
     one_minus = ((a2 + a3) ** 2 - square) * half
     one_plus = (square - (a2 - a3) ** 2) * half
-    missing = np.minimum(one_minus, one_plus) < -COSINE_TOLERANCE
+    missing = (one_minus < -COSINE_TOLERANCE) | (one_plus < -folded_tolerance(a2, a3))
     np.maximum(one_minus, 0.0, out=one_minus)
     np.maximum(one_plus, 0.0, out=one_plus)
     bend = 2.0 * np.arctan2(np.sqrt(one_minus), np.sqrt(one_plus))
     lean = np.arctan2(a3 * np.sqrt(one_minus * one_plus), (square + (a2 * a2 - a3 * a3)) * (0.5 / a2))
     return Elbow(np.arctan2(w, u), lean, bend, missing)
+
+
+def folded_tolerance(a2: float, a3: float) -> float:
+    """How far 1 + cos θ3 may be below 0: the wrist, close to the shoulder, moves much with the cosine."""
+    return COSINE_TOLERANCE * abs(abs(a2) - abs(a3)) / (abs(a2) + abs(a3))
 
 
 def elbow_up(a2: float, a3: float) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from rvsim.errors import NoClosedFormError
 from rvsim.kinematics.inverse.chain import TOLERANCE, Chain
+from rvsim.spatial import rot_z
 from rvsim.spatial.arrays import FloatArray
 
 
@@ -36,17 +37,12 @@ def turned_about_vertical(chain: Chain, T: FloatArray) -> FloatArray:
     """
     _require_tip_on_roll_axis(chain)
     T_0_tool = chain.T_0_base @ T
-    axis = T_0_tool[:, :3, :3] @ chain.T_tool_n[:3, 2]
-    normal = _plane_normals(T_0_tool[:, :3, 3], axis)
-    flat = axis * (1.0, 1.0, 0.0)
-    steep = np.linalg.norm(flat, axis=-1) <= TOLERANCE
-    wanted = np.where(steep[:, None], flat, _rejected(flat, normal))
-    wanted = np.where(
-        (np.linalg.norm(wanted, axis=-1) <= TOLERANCE)[:, None], np.cross((0.0, 0.0, 1.0), normal), wanted
-    )
-    turned = rotation_onto(_unit(flat, steep), _unit(wanted, steep))
+    (x, y, _), (ax, ay, _) = T_0_tool[:, :3, 3].T, (T_0_tool[:, :3, :3] @ chain.T_tool_n[:3, 2]).T
+    turn = np.arctan2(ax * y - ay * x, ax * x + ay * y)
+    turn -= np.pi * np.rint(turn / np.pi)  # outwards or back to the base, whichever is nearer
+    turn[(np.hypot(x, y) <= TOLERANCE) | (np.hypot(ax, ay) <= TOLERANCE)] = 0.0
     result = T_0_tool.copy()
-    result[:, :3, :3] = turned @ T_0_tool[:, :3, :3]
+    result[:, :3, :3] = rot_z(turn) @ T_0_tool[:, :3, :3]
     return np.asarray(chain.T_base_0 @ result)
 
 
@@ -89,9 +85,3 @@ def _projected(axis: FloatArray, normal: FloatArray) -> FloatArray:
     norm = np.linalg.norm(inside, axis=-1, keepdims=True)
     down = np.array([0.0, 0.0, -1.0])
     return np.where(norm <= TOLERANCE, down, inside / np.where(norm == 0.0, 1.0, norm))
-
-
-def _unit(vector: FloatArray, steep: FloatArray) -> FloatArray:
-    norm = np.linalg.norm(vector, axis=-1, keepdims=True)
-    upright = np.array([1.0, 0.0, 0.0])
-    return np.where(steep[:, None], upright, vector / np.where(norm == 0.0, 1.0, norm))

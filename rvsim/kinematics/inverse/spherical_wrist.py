@@ -20,7 +20,7 @@ from rvsim.kinematics.inverse.waist import Side
 from rvsim.kinematics.inverse.words import ELBOW, combine, side_names, wrist_names
 from rvsim.spatial.arrays import FloatArray
 
-_SINGULAR = 1e-10  # sin θ5: below it axes 4 and 6 are one, and θ4 is free
+_SINGULAR = 5e-10  # sin θ5: below it axes 4 and 6 are one, and θ4 is free
 
 
 class SphericalWrist(ClosedForm):

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rvsim.kinematics.inverse.chain import Chain, wrap
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, intersecting, long_enough, parallel, right_angle
@@ -19,8 +21,19 @@ from rvsim.kinematics.inverse.waist import Side, solve_waist
 from rvsim.kinematics.inverse.words import ELBOW, combine, side_names, wrist_names
 from rvsim.spatial.arrays import FloatArray
 
-Flange = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
-SINGULAR = 1e-10  # sin θ5: below it axis 6 is parallel to axes 2, 3, 4, and θ6 is free
+Rows = NDArray[np.intp]
+SINGULAR = 5e-10  # sin θ5: below it axis 6 is parallel to axes 2, 3, 4, and θ6 is free
+UNCERTAIN = 1e-5  # sin θ5: below it rounding moves θ6 so far that a stretched elbow may seem out of reach
+HARMLESS = 1e-10  # sin θ5 times a turn of θ6: what such a turn changes of the pose
+
+
+class _Wrist(NamedTuple):
+    """One of two wrists: the elbow's end (u, w) in the plane, bend = θ2 + θ3 + θ4, and θ6."""
+
+    u: FloatArray
+    w: FloatArray
+    bend: FloatArray
+    theta6: FloatArray
 
 
 class ParallelAxes(ClosedForm):
@@ -65,42 +78,48 @@ class ParallelAxes(ClosedForm):
         u = side.out - self.a1
         sine = np.sqrt(xn * xn + yn * yn)
         c6, s6 = xn / sine, -yn / sine
-        singular = sine < SINGULAR
-        if singular.any():
-            theta6 = self._free_wrist((xr, yr, xz, yz), u, w, singular, free6)
-            c6[singular], s6[singular] = np.cos(theta6), np.sin(theta6)
+        uncertain = np.flatnonzero(sine < UNCERTAIN)
+        if uncertain.size:
+            free = sine < SINGULAR
+            c6[free], s6[free] = math.cos(free6), math.sin(free6)
         r4, z4 = s6 * xr + c6 * yr, s6 * xz + c6 * yz
-        q[0, :, 4], q[0, :, 5] = np.arctan2(sine, -an), np.arctan2(s6, c6)
-        np.negative(q[0, :, 4], out=q[1, :, 4])
-        np.add(q[0, :, 5], math.pi, out=q[1, :, 5])
-        bend = np.arctan2(r4, -z4)
         along, across = self.d5 * r4 - self.a4 * z4, self.d5 * z4 + self.a4 * r4
-        absent = self._fold(u - along, w - across, bend, q[0], up)
-        erase(q[0], absent | missing)
-        absent = self._fold(u + along, w + across, bend + math.pi, q[1], up)
-        erase(q[1], absent | missing)
+        theta5, theta6, bend = np.arctan2(sine, -an), np.arctan2(s6, c6), np.arctan2(r4, -z4)
+        for flip, branches in enumerate(q):
+            sign, turn = 1.0 - 2.0 * flip, math.pi * flip
+            wrist = _Wrist(u - sign * along, w - sign * across, bend + turn, theta6 + turn)
+            if uncertain.size:
+                sense = np.where(xr * yz - xz * yr > 0.0, -1.0, 1.0)
+                self._turn_into_reach(wrist, u, w, uncertain, sine, sense)
+            branches[:, 4], branches[:, 5] = sign * theta5, wrist.theta6
+            erase(branches, self._fold(wrist, branches, up) | missing)
 
-    def _fold(self, u: FloatArray, w: FloatArray, bend: FloatArray, q: FloatArray, up: float) -> Mask:
-        """θ2, θ3, θ4 into q (2, 6, m), for the elbow's end at (u, w) and bend = θ2 + θ3 + θ4."""
-        elbow = solve_elbow(u, w, self.a2, self.a3)
+    def _fold(self, wrist: _Wrist, q: FloatArray, up: float) -> Mask:
+        """θ2, θ3, θ4 into q (2, 6, m)."""
+        elbow = solve_elbow(wrist.u, wrist.w, self.a2, self.a3)
         for branch, sign in zip(q, (up, -up), strict=True):
             np.subtract(elbow.direction, sign * elbow.lean, out=branch[1])
             np.multiply(elbow.bend, sign, out=branch[2])
-            np.subtract(bend, branch[1], out=branch[3])
+            np.subtract(wrist.bend, branch[1], out=branch[3])
             branch[3] -= branch[2]
         return elbow.missing
 
-    def _free_wrist(self, flange: Flange, u: FloatArray, w: FloatArray, rows: Mask, free6: float) -> FloatArray:
-        """θ6 of the rows where it is free: `free6`, or if the elbow then is out of reach, the nearest that is not."""
-        xr, yr, xz, yz = (entry[rows] for entry in flange)
-        c, s = math.cos(free6), math.sin(free6)
-        r4, z4 = s * xr + c * yr, s * xz + c * yz
-        link = np.arctan2(self.d5 * z4 + self.a4 * r4, self.d5 * r4 - self.a4 * z4)
-        opening = wrap(link - np.arctan2(w[rows], u[rows]))
+    def _turn_into_reach(
+        self, wrist: _Wrist, u: FloatArray, w: FloatArray, rows: Rows, sine: FloatArray, sense: FloatArray
+    ) -> None:
+        """Where θ6 is free, or known badly: the least turn, in place, that lets the links reach; (u, w) is axis 5.
+
+        As θ6 grows, axis 4 turns from the flange's y to its x: `sense` tells which way round that is in the plane.
+        """
+        link_u, link_w = u[rows] - wrist.u[rows], w[rows] - wrist.w[rows]
+        opening = wrap(np.arctan2(link_w, link_u) - np.arctan2(w[rows], u[rows]))
         least, most = self._openings(np.hypot(u[rows], w[rows]))
-        allowed = np.copysign(np.clip(np.abs(opening), least, most), opening)
-        # As θ6 grows, axis 4 turns from the flange's y to its x, which may be either way round in the plane.
-        return np.asarray(free6 + np.where(xr * yz - xz * yr > 0.0, opening - allowed, allowed - opening))
+        turn = np.copysign(np.clip(np.abs(opening), least, most), opening) - opening
+        turn[(sine[rows] >= SINGULAR) & (sine[rows] * np.abs(turn) > HARMLESS)] = 0.0
+        c, s = np.cos(turn), np.sin(turn)
+        wrist.u[rows], wrist.w[rows] = u[rows] - (c * link_u - s * link_w), w[rows] - (s * link_u + c * link_w)
+        wrist.bend[rows] += turn
+        wrist.theta6[rows] += sense[rows] * turn
 
     def _openings(self, away: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The least and the greatest angle at the shoulder-to-wrist line with which d5, a4 leave the elbow in reach."""

@@ -8,8 +8,8 @@ from math import atan2, remainder, sqrt
 import numpy as np
 
 from rvsim.kinematics.inverse.chain import TOLERANCE, TURN
-from rvsim.kinematics.inverse.elbow import COSINE_TOLERANCE
-from rvsim.kinematics.inverse.ur import SINGULAR, ParallelAxes
+from rvsim.kinematics.inverse.elbow import COSINE_TOLERANCE, folded_tolerance
+from rvsim.kinematics.inverse.ur import UNCERTAIN, ParallelAxes
 from rvsim.spatial.arrays import FloatArray
 
 _PI = math.pi
@@ -25,7 +25,15 @@ class ScalarParallelAxes:
         a2, a3, chain = form.a2, form.a3, form.chain
         self.chain = chain
         self.lengths = (form.a1, form.a4, form.d1, form.d5, form.d6, form.offset)
-        self.elbow = ((a2 + a3) ** 2, (a2 - a3) ** 2, 0.5 / (a2 * a3), a2 * a2 - a3 * a3, 0.5 / a2, a3)
+        self.elbow = (
+            (a2 + a3) ** 2,
+            (a2 - a3) ** 2,
+            0.5 / (a2 * a3),
+            a2 * a2 - a3 * a3,
+            0.5 / a2,
+            a3,
+            folded_tolerance(a2, a3),
+        )
         self.halves = tuple(math.copysign(1.0, math.cos(chain.offset[i])) for i in (0, 4, 5))
         self.up = form.up
         self.smallest = (1e-6 * chain.size) ** 2
@@ -60,7 +68,7 @@ class ScalarParallelAxes:
             c, s = (px * out - py * offset) / square, (py * out + px * offset) / square
             xn, yn, an = s * xx - c * xy, s * yx - c * yy, s * ax - c * ay
             sine = sqrt(xn * xn + yn * yn)
-            if sine < SINGULAR:
+            if sine < UNCERTAIN:
                 return None
             c6, s6 = xn / sine, -yn / sine
             r4, z4 = s6 * (c * xx + s * xy) + c6 * (c * yx + s * yy), s6 * xz + c6 * yz
@@ -75,11 +83,11 @@ class ScalarParallelAxes:
         self, joints: list[float], u: float, w: float, bend: float, up: float, q1: float, q5: float, q6: float
     ) -> None:
         """Both elbows for the elbow's end at (u, w) and bend = θ2 + θ3 + θ4."""
-        stretched, folded, half, difference, scale, a3 = self.elbow
+        stretched, folded, half, difference, scale, a3, slack = self.elbow
         square = u * u + w * w
         minus, plus = (stretched - square) * half, (square - folded) * half
         if minus < 0.0 or plus < 0.0:
-            if minus < -COSINE_TOLERANCE or plus < -COSINE_TOLERANCE:
+            if minus < -COSINE_TOLERANCE or plus < -slack:
                 return
             minus, plus = max(minus, 0.0), max(plus, 0.0)
         minus, plus = sqrt(minus), sqrt(plus)

@@ -79,11 +79,13 @@ def test_no_branch_comes_twice(name, random_q, apart):
 
 
 @pytest.mark.parametrize("name", ARMS)
-def test_at_round_angles_there_is_no_branch_that_is_slightly_wrong(name, apart):
+def test_at_and_beside_round_angles_there_is_a_branch_and_none_that_is_slightly_wrong(name):
     robot = load_robot(name)
     rng = np.random.default_rng(5)
-    true = np.where(robot.is_revolute, rng.integers(-4, 5, (1000, robot.dof)) * (np.pi / 4.0), 0.25)
-    T = forward_kinematics(robot, true)
+    shape = (2000, robot.dof)
+    round_angles = np.where(robot.is_revolute, rng.integers(-4, 5, shape) * (np.pi / 4.0), 0.25)
+    beside = rng.choice([-1.0, 0.0, 1.0], shape) * 10.0 ** rng.uniform(-17.0, -2.0, shape)
+    T = forward_kinematics(robot, round_angles + beside)
     q = inverse_kinematics_batch(robot, T)
     assert (~np.isnan(q).any(axis=2)).any(axis=1).all()
     assert np.nanmax(right(robot, q, T, ARMS[name])) < 1e-9

