@@ -36,6 +36,7 @@ DONE, FAILED, BAD_INPUT = 0, 1, 2
 
 # A value may begin with a minus sign; written with "=" it is not taken for an option.
 _VECTOR_OPTIONS = ("--deg", "--near-deg", "--xyz-mm", "--rpy-deg", "--from-mm", "--to-mm", "--height-mm")
+_PANELS = ("path", "tool", "matrices", "points", "dh")
 _SEPARATOR = re.compile(r"[,;](?![^()]*\))")
 
 
@@ -95,6 +96,8 @@ def _add_window_options(parser: argparse.ArgumentParser) -> None:
     window.add_argument("--screenshot", metavar="FILE.png", help="open, draw, save, leave")
     window.add_argument("--size", type=_size, metavar="1366x768", help="of the window")
     window.add_argument("--state", default="home", metavar="home|line|PATH", help="what the screenshot shows")
+    window.add_argument("--panel", choices=_PANELS, default="path", help="the panel that the screenshot shows")
+    window.add_argument("--look", choices=("solid", "stick", "both"), help="how the arm is drawn")
 
 
 def _add_arm(parser: argparse.ArgumentParser) -> None:

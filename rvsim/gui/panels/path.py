@@ -201,7 +201,7 @@ class ResultSection(QGroupBox):
         self.sentence = QLabel(wordWrap=True)
         self.sentence.setObjectName("tracking_sentence")
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._repairs = QVBoxLayout()
+        self._repairs = QHBoxLayout()
         self._repairs.setSpacing(6)
         rows = form()
         rows.addRow("Reached", self.reached)

@@ -1,0 +1,71 @@
+"""`rvsim --screenshot`: sets the window up as asked, lets it paint, saves it. So the README's pictures are made."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import QEventLoop, QTimer
+from PySide6.QtWidgets import QDockWidget
+
+from rvsim.errors import RvsimError, UnknownNameError
+from rvsim.experiment import TrajectoryTask
+from rvsim.gui.main_window import MainWindow
+from rvsim.gui.picture import save_image
+from rvsim.lab.lines import line_presets
+from rvsim.lab.named_paths import path_names
+
+_SIZE = (1366, 768)
+_STATES = ("home", "line", "line-source")
+
+
+def save_screenshot(window: MainWindow, options: argparse.Namespace) -> int:
+    """Show `options.state` and `options.panel`, and save the window as `options.screenshot`; the exit status."""
+    window.preferences.set("animated", False)
+    window.resize(*(options.size or _SIZE))
+    window.show()
+    _settle(200)
+    try:
+        _set_up(window, options.state)
+        _raise_panel(window, options.panel)
+        _settle(300)
+        save_image(window.picture(), Path(options.screenshot))
+    except (RvsimError, OSError) as problem:
+        print(f"rvsim: {problem}", file=sys.stderr)
+        return 2
+    print(options.screenshot)
+    return 0
+
+
+def _set_up(window: MainWindow, state: str) -> None:
+    if state == "home":
+        return
+    experiment = window.session.experiment
+    if state in ("line", "line-source"):
+        presets = line_presets(window.session.robot)
+        line = presets[-1 if state == "line-source" else 0].task()
+        window.session.edit("Line", replace(experiment, line=line))
+        window.tracker.track_line()
+    else:
+        known = path_names(window.session.robot)
+        if state not in known:
+            raise UnknownNameError("state", state, (*_STATES, *known))
+        window.session.edit("Trajectory", replace(experiment, trajectory=TrajectoryTask(state)))
+        window.tracker.track_trajectory()
+    window.motion.seek(0.8 * window.motion.player.duration)
+    window.motion.pause()
+
+
+def _raise_panel(window: MainWindow, panel: str) -> None:
+    dock = window.findChild(QDockWidget, f"{panel}_dock")
+    if dock is not None:
+        dock.raise_()
+
+
+def _settle(milliseconds: int) -> None:
+    """Let the window live for a while."""
+    loop = QEventLoop()
+    QTimer.singleShot(milliseconds, loop.quit)
+    loop.exec()
