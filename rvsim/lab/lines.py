@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rvsim.errors import NoClosedFormError
 from rvsim.experiment import Experiment, LineTask, PathOrientation, TrajectoryTask
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.orientations import oriented
@@ -85,13 +86,21 @@ def _preset(row: _Row) -> LinePreset:
 def _found_line(robot: Robot) -> LinePreset:
     """The longest of a few lines about the tool's place at home, or in mid-range; else one that stays at home."""
     home, middle = (forward_kinematics(robot, q)[:3, 3] for q in (robot.home, _mid_range(robot)))
+    at_home = LinePreset("own", "At its home", home, home, 0.5, "keep")
     for length, place, direction, orientation in product(_HALF_LENGTHS, (home, middle), _DIRECTIONS, _ORIENTATIONS):
         half = length * robot.size * np.array(direction)
         preset = LinePreset("own", "About its home", place - half, place + half, 0.02, orientation)
-        tracking = track(robot, preset_path(robot, preset), near=robot.home)
-        if tracking.complete and not tracking.jumps:
+        if _can_draw(robot, preset):
             return preset
-    return LinePreset("own", "At its home", home, home, 0.5, "keep")
+    return at_home
+
+
+def _can_draw(robot: Robot, preset: LinePreset) -> bool:
+    try:
+        tracking = track(robot, preset_path(robot, preset), near=robot.home)
+    except NoClosedFormError:
+        return False
+    return tracking.complete and not tracking.jumps
 
 
 def _mid_range(robot: Robot) -> FloatArray:

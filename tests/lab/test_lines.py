@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rvsim import load_robot, robot_names
+from rvsim.errors import NoClosedFormError
 from rvsim.lab import default_experiment, line_of, line_presets, named_path
 from rvsim.motion import track
 
@@ -45,3 +46,11 @@ def test_an_arm_of_ones_own_gets_a_line_that_it_can_draw(name: str) -> None:
     task = default_experiment(robot).line
     assert track(robot, line_of(robot, task)).complete
     assert np.linalg.norm(preset.end - preset.start) > 0.05 * robot.size
+
+
+def test_an_arm_without_a_closed_form_still_has_an_experiment() -> None:
+    skew = load_robot("rv-1a").renamed("mine", "Mine").with_joint(3, alpha=1.0)
+    with pytest.raises(NoClosedFormError):
+        track(skew, named_path("line", skew))
+    line = default_experiment(skew).line
+    assert np.array_equal(line.start, line.end)

@@ -218,3 +218,11 @@ def test_a_planar_arm_does_not_pretend_to_leave_its_plane() -> None:
     tracking = track(load_robot("planar"), line_path((0.3, 0.0, 0.10), (0.3, 0.0, 0.14), 5, None))
     assert reached_indices(tracking) == [2]
     assert {point.kind for point in tracking.unreached} == {"reach"}
+
+
+def test_a_free_pitch_glides_along_a_finely_sampled_path_longer_than_a_block(rv_m1: Robot) -> None:
+    tracking = track(rv_m1, named_path("letter-flat", rv_m1, samples=300, orientation="free"))
+    assert tracking.complete
+    assert not tracking.jumps
+    pitch = np.degrees(tracking.q[:, 1:4].sum(axis=1))
+    assert np.abs(np.diff(pitch)).max() < 10.0
