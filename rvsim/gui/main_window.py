@@ -91,6 +91,8 @@ class MainWindow(QMainWindow):
         ]
         for dock in docks[1:]:
             self.tabifyDockWidget(docks[0], dock)
+        for dock in docks:
+            dock.setTitleBarWidget(QWidget())  # the tab says it already; a low screen needs the room
         docks[0].raise_()
         self._sized_docks = [arm, docks[0]]
         panels = QMenu("Panels", self)

@@ -90,7 +90,7 @@ QTabBar::tab {{ background: transparent; padding: 6px 10px; border: none; border
 QTabBar::tab:selected {{ color: {text}; border-bottom-color: {accent}; }}
 QTabBar::tab:hover {{ color: {text}; }}
 QTabWidget::pane {{ border: none; border-top: 1px solid {border}; }}
-QGroupBox {{ border: none; margin-top: 18px; font-weight: 600; }}
+QGroupBox {{ border: none; margin-top: 16px; font-weight: 600; }}
 QGroupBox::title {{ subcontrol-origin: margin; left: 0; padding: 0; }}
 QAbstractSpinBox, QLineEdit, QComboBox {{
     background: {base}; border: 1px solid {border}; border-radius: 5px; padding: 3px 6px; min-height: 20px;

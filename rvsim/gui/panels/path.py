@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtCore import QSignalBlocker, Qt, QTimer
 from PySide6.QtWidgets import (
     QGridLayout,
     QGroupBox,
@@ -84,6 +84,7 @@ class LineSection(QGroupBox):
                 grid.addWidget(box, row, column + 1)
         step = QHBoxLayout()
         step.addWidget(self.resolution)
+        step.addSpacing(6)
         step.addWidget(self.samples, 1)
         rows = form()
         rows.addRow("Preset", self.presets)
@@ -258,14 +259,15 @@ class PathPanel(QWidget):
         inside = QWidget()
         inside.setMinimumWidth(0)
         column = QVBoxLayout(inside)
-        column.setContentsMargins(12, 0, 12, 8)
+        column.setContentsMargins(12, 6, 12, 8)
         column.setSpacing(4)
         for section in (self.line, self.trajectory, self.result):
             column.addWidget(section)
         column.addStretch(1)
-        column_of(self, scrolled(inside))
+        self._scroll = scrolled(inside)
+        column_of(self, self._scroll)
         session.changed.connect(self._on_changed)
-        session.tracking_changed.connect(self.result.show_tracking)
+        session.tracking_changed.connect(self._on_tracking)
         self._show(session.experiment)
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
@@ -275,6 +277,12 @@ class PathPanel(QWidget):
             or after.trajectory is not before.trajectory
         ):
             self._show(after)
+
+    def _on_tracking(self, tracking: Tracking | None) -> None:
+        self.result.show_tracking(tracking)
+        if tracking is not None:
+            # When the layout has made room for the sentence and the buttons, on a low screen too.
+            QTimer.singleShot(0, self, lambda: self._scroll.ensureWidgetVisible(self.result, 0, 0))
 
     def _show(self, experiment: Experiment) -> None:
         self.line.show_task(experiment)
