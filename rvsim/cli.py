@@ -7,6 +7,7 @@ wrong is one sentence on the error stream, never a traceback. Results: sentences
 from __future__ import annotations
 
 import argparse
+import codecs
 import json
 import os
 import re
@@ -64,10 +65,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except RvsimError as problem:
         print(f"rvsim: {problem}", file=sys.stderr)
     except OSError as problem:
-        print(
-            f"rvsim: {problem.filename}: {problem.strerror}." if problem.filename else f"rvsim: {problem}",
-            file=sys.stderr,
-        )
+        file = problem.filename2 or problem.filename
+        print(f"rvsim: {file}: {problem.strerror}." if file else f"rvsim: {problem}", file=sys.stderr)
     return BAD_INPUT
 
 
@@ -191,11 +190,23 @@ def _place(option: str, text: str | None) -> FloatArray | None:
 # --- printing ----------------------------------------------------------------------------------------------------
 
 
+# For a terminal that lacks the sign; a minus that became a question mark would change the number.
+_PLAIN = {"−": "-", "–": "-", "…": "...", "°": " deg", "“": '"', "”": '"', "×": "x", "·": "*"}
+
+
+def _plain_signs(problem: UnicodeError) -> tuple[str, int]:
+    """A codec's error handler: the nearest sign that every terminal has."""
+    if not isinstance(problem, UnicodeEncodeError):
+        raise problem
+    lacking = problem.object[problem.start : problem.end]
+    return "".join(_PLAIN.get(sign, "?") for sign in lacking), problem.end
+
+
 def _speak_any_encoding() -> None:
-    """A terminal that lacks a sign shows another one; it is no reason to stop."""
+    codecs.register_error("rvsim-plain-signs", _plain_signs)
     for stream in (sys.stdout, sys.stderr):
         with suppress(AttributeError, ValueError):
-            stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+            stream.reconfigure(errors="rvsim-plain-signs")  # type: ignore[union-attr]
 
 
 def _print(options: argparse.Namespace, record: Any, text: str) -> None:
@@ -263,11 +274,16 @@ def _fk(options: argparse.Namespace) -> int:
     T = forward_kinematics(robot, q)
     pose, outside = pose_record(T), _outside(robot, q)
     record = {"robot": robot.name, **pose, "T_base_tool": T, "outside_limits": outside}
-    text = f"({_row(pose['xyz_mm'])}) mm\nroll, pitch, yaw: ({_row(pose['rpy_deg'])})°"
+    text = f"{_place_text(robot, pose['xyz_mm'])}\nroll, pitch, yaw: ({_row(pose['rpy_deg'])})°"
     if outside:
         text += f"\nOutside its limits: {', '.join(outside)}."
     _print(options, record, text)
     return DONE
+
+
+def _place_text(robot: Robot, xyz_mm: FloatArray) -> str:
+    """An arm whose source gives lengths without a unit counts 1 unit as 1000 mm."""
+    return f"({_row(xyz_mm / 1e3, 3)}) units" if robot.length_unit == "unit" else f"({_row(xyz_mm)}) mm"
 
 
 def _outside(robot: Robot, q: FloatArray) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -37,6 +38,10 @@ def run_json(capsys: Capture, *arguments: str, status: int = DONE) -> Any:
 
 def test_the_pose_of_source_000s_worked_example(capsys: Capture) -> None:
     assert run(capsys, "fk", "rv-m1", "--deg", "30,40,-50,20,60").startswith("(363.7, 210.0, 297.4) mm\n")
+
+
+def test_an_arm_without_a_unit_of_length_is_shown_in_units(capsys: Capture) -> None:
+    assert run(capsys, "fk", "rrrp", "--deg", "0,0,0,1000").startswith("(5.000, 4.000, 4.000) units\n")
 
 
 def test_joints_are_degrees_and_millimetres_and_may_be_expressions_and_begin_with_a_minus(capsys: Capture) -> None:
@@ -180,6 +185,16 @@ def test_a_file_of_points_with_a_mistake_is_told_with_its_place(capsys: Capture,
     file.write_text("300,0,200\n300,zero,200\n", encoding="utf-8")
     problem = run(capsys, "track", "rv-m1", "--path", str(file), status=BAD_INPUT)
     assert "row 2, column 2 (y): found “zero”, expected a number in millimetres." in problem
+
+
+def test_a_table_that_cannot_be_written_is_told_by_its_name(capsys: Capture, tmp_path: Path) -> None:
+    assert run(capsys, "track", "rv-m1", "--csv", str(tmp_path), status=BAD_INPUT).startswith(f"rvsim: {tmp_path}: ")
+
+
+def test_a_terminal_without_the_signs_keeps_the_numbers() -> None:
+    program = [sys.executable, "-m", "rvsim", "track", "rv-m1", "--path", "line", *LINE_000]
+    done = subprocess.run(program, capture_output=True, check=True, env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert b"points 1-6: the elbow needs -156.7 deg ... -116.9 deg and stops at -110 deg;" in done.stdout
 
 
 def test_where_there_is_no_display_the_window_says_so(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
