@@ -96,6 +96,7 @@ def test_time_is_clamped_and_a_wish_for_a_duration_is_heeded_where_the_joints_al
     assert slow is not None
     assert fast is not None
     assert slow.duration == pytest.approx(45.0)
+    assert slow.path_start == 5.0
     assert 1.0 < fast.duration < 10.0
     assert np.array_equal(slow.q([-1.0, 99.0]), [tracking.robot.home, tracking.q[-1]])
     assert slow.phase(-1.0) == "approach"
