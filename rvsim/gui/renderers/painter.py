@@ -5,12 +5,13 @@ It needs no OpenGL, works off-screen and is the faster renderer where OpenGL is 
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QImage, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
@@ -41,18 +42,18 @@ class _Layers(NamedTuple):
     labels: list[Seen[Labels]]
 
 
-def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, height: int) -> None:
+def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, height: int, smooth: bool = True) -> None:
     """Paints a scene into `width` × `height` device-independent pixels from the painter's origin.
 
-    Points that are nan, or behind the eye, are left out.
+    Points that are nan, or behind the eye, are left out. Without `smooth` the solids' edges are rough, which is faster.
     """
     lens = Lens(camera, max(width, 1), max(height, 1))
     painter.fillRect(0, 0, width, height, qcolor(scene.background))
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     layers = _layers(look_at(scene.items, lens))
     _paint_floor(painter, layers, lens, scene.background)
-    _paint_ghosts(painter, layers.ghosts, lens)
-    solids = render_solids(layers.solids, lens, painter.device().devicePixelRatioF())
+    _paint_ghosts(painter, layers.ghosts, lens, smooth)
+    solids = render_solids(layers.solids, lens, painter.device().devicePixelRatioF(), smooth)
     if solids is not None:
         solids.draw(painter)
     _paint(painter, [stroke for seen in layers.lines for stroke in _line_strokes(seen, lens, solids)])
@@ -105,11 +106,11 @@ def _paint_floor(painter: QPainter, layers: _Layers, lens: Lens, background: Col
         draw_shadow(painter, [seen.item for seen in layers.solids], lens, background)
 
 
-def _paint_ghosts(painter: QPainter, ghosts: list[Seen[Solid]], lens: Lens) -> None:
+def _paint_ghosts(painter: QPainter, ghosts: list[Seen[Solid]], lens: Lens, smooth: bool) -> None:
     """See-through solids of one alpha are one pane of glass: what lies inside another of them is not seen."""
     for alpha in sorted({seen.item.color.alpha for seen in ghosts}):
         alike = [seen for seen in ghosts if seen.item.color.alpha == alpha]
-        picture = render_solids(alike, lens, painter.device().devicePixelRatioF())
+        picture = render_solids(alike, lens, painter.device().devicePixelRatioF(), smooth)
         if picture is not None:
             painter.setOpacity(alpha)
             picture.draw(painter)
@@ -129,17 +130,28 @@ _EMPTY = Scene((), Color(1.0, 1.0, 1.0), np.array([[-1.0, -1.0, 0.0], [1.0, 1.0,
 
 
 class PainterRenderer(QWidget):
-    """The widget that shows a scene with `paint_scene`; a `Renderer`."""
+    """The widget that shows a scene with `paint_scene`; a `Renderer`.
+
+    While frames follow one another quickly the solids' edges are rough; they are smoothed when all is at rest.
+
+    Args:
+        rest: how long nothing must have changed for that [s].
+    """
 
     name = "painter"
     description = "painter (no OpenGL needed)"
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None, rest: float = 0.12) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self._scene = _EMPTY
         self._camera = Camera(np.zeros(3), 3.0)
         self._report: Callable[[float], None] | None = None
+        self._changed, self._smooth = True, True
+        self._ended = -math.inf  # when the last paint ended [s]
+        self._rest = rest
+        self._timer = QTimer(self, singleShot=True, interval=round(1e3 * rest))
+        self._timer.timeout.connect(self._on_rest)
 
     def widget(self) -> QWidget:
         """Itself."""
@@ -149,16 +161,16 @@ class PainterRenderer(QWidget):
         """Shows another scene at the next paint."""
         if scene is not self._scene:
             self._scene = scene
-            self.update()
+            self._change()
 
     def set_camera(self, camera: Camera) -> None:
         """Looks from elsewhere at the next paint."""
         if camera is not self._camera:
             self._camera = camera
-            self.update()
+            self._change()
 
     def on_painted(self, report: Callable[[float], None]) -> None:
-        """From now on `report(milliseconds)` is called after each paint with the time that it took."""
+        """From now on `report(milliseconds)` is called after each paint of something new with the time that it took."""
         self._report = report
 
     def image(self, width: int | None = None, height: int | None = None) -> QImage:
@@ -167,12 +179,26 @@ class PainterRenderer(QWidget):
         return scene_image(self._scene, self._camera, wide, high, self.devicePixelRatioF())
 
     def paintEvent(self, _event: QPaintEvent) -> None:
-        """Paints, and reports the time that it took."""
+        """Paints, and reports the time that it took if there was something new."""
         begin = time.perf_counter()
+        changed, self._changed = self._changed, False
+        if changed:
+            self._smooth = begin - self._ended > self._rest
         with QPainter(self) as painter:  # it must end even when something breaks, or Qt aborts
-            paint_scene(painter, self._scene, self._camera, self.width(), self.height())
-        if self._report is not None:
-            self._report(1e3 * (time.perf_counter() - begin))
+            paint_scene(painter, self._scene, self._camera, self.width(), self.height(), self._smooth)
+        self._ended = time.perf_counter()
+        if changed and not self._smooth:
+            self._timer.start()
+        if changed and self._report is not None:
+            self._report(1e3 * (self._ended - begin))
+
+    def _change(self) -> None:
+        self._changed = True
+        self.update()
+
+    def _on_rest(self) -> None:
+        self._smooth = True
+        self.update()
 
 
 def scene_image(scene: Scene, camera: Camera, width: int, height: int, ratio: float = 1.0) -> QImage:

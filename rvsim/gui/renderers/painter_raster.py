@@ -95,8 +95,8 @@ class SolidPicture(NamedTuple):
         return np.asarray(depth > solid + 0.001 * self.raster.lens.distance)
 
 
-def render_solids(solids: list[Seen[Solid]], lens: Lens, ratio: float) -> SolidPicture | None:
-    """The picture of opaque solids on a device of that pixel ratio; None if none is seen."""
+def render_solids(solids: list[Seen[Solid]], lens: Lens, ratio: float, smooth: bool = True) -> SolidPicture | None:
+    """The picture of opaque solids on a device of that pixel ratio, with smooth edges or not; None if none is seen."""
     boxes = [(seen, box) for seen in solids if (box := _box_in_view(seen, lens)) is not None]
     if not boxes:
         return None
@@ -108,7 +108,8 @@ def render_solids(solids: list[Seen[Solid]], lens: Lens, ratio: float) -> SolidP
         _trace(part, number, raster, depth, ids)
     table = _face_table(parts)
     pixels = _shade(parts, raster, table, depth, ids)
-    _smooth_edges(parts, raster, table, ids, pixels)
+    if smooth:
+        _smooth_edges(parts, raster, table, ids, pixels)
     return SolidPicture(pixels, depth, raster)
 
 

@@ -202,6 +202,27 @@ def test_the_widget_paints_once_for_many_changes_and_tells_how_long_it_took(qtbo
     assert (_pixels(view.image()) == _pixels(scene_image(scene, camera, WIDTH, HEIGHT))).all()
 
 
+@pytest.mark.parametrize(("rest", "at_last_smooth"), [(60.0, False), (0.2, True)])
+def test_edges_are_rough_in_motion_and_smooth_at_rest(qtbot: QtBot, rest: float, at_last_smooth: bool) -> None:
+    scene, camera = _arm_scene("solid")
+    view = PainterRenderer(rest=rest)
+    qtbot.addWidget(view)
+    view.resize(WIDTH, HEIGHT)
+    view.set_camera(camera)
+    smooth = _pixels(scene_image(scene, camera, WIDTH, HEIGHT))
+
+    def rough_pixels() -> int:
+        return int((np.abs(_pixels(view.grab().toImage()) - smooth).max(axis=2) > 8).sum())
+
+    view.set_scene(scene)
+    assert rough_pixels() == 0  # a first frame has the time
+    view.set_scene(replace(scene))
+    if at_last_smooth:
+        qtbot.waitUntil(lambda: rough_pixels() == 0)
+    else:
+        assert 100 < rough_pixels() < 5000
+
+
 def test_a_ghost_arm_stands_behind_the_arm() -> None:
     scene, camera = _arm_scene("solid")
     ghost = arm_items(ROBOT, Q, LIGHT, look="solid", key="ghost", alpha=0.3, labels=False)
