@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -86,6 +87,8 @@ def _cut_strokes(seen: Seen[Polyline], lens: Lens) -> list[Stroke]:
 
 def _line_stroke(depth: float, pixels: FloatArray, item: Polyline) -> Stroke:
     color, width, dashed = item.color, item.width, item.dashed
+    if width < _TUBE_WIDTH:
+        depth = math.inf  # paths lie under the figure, in the order of the scene: the actual one on the desired one
     # Qt strokes short lines faster. But joints of see-through lines would show, and dashes would begin anew.
     long = len(pixels) > 2 * _SHORT and not dashed and color.alpha >= 1.0
     lines = [polygon(piece) for piece in (_short_pieces(pixels) if long else [pixels])]

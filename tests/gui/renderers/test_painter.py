@@ -122,6 +122,12 @@ def test_a_line_behind_a_solid_is_hidden_and_one_before_it_is_seen() -> None:
         assert (row[WIDTH // 2 + 60] == _rgb(GREEN)).all()
 
 
+def test_of_two_paths_at_one_place_the_later_one_is_seen() -> None:
+    line = np.array([[0.0, -0.5, 0.0], [0.0, 0.0, 0.0], [0.9, 0.5, 0.0]])
+    desired, actual = Polyline("desired", line, RED, 2.0), Polyline("actual", line[:2], GREEN, 2.2)
+    assert np.argmax(_painted(desired, actual)[HEIGHT // 2, WIDTH // 2 - 40]) == 1
+
+
 @pytest.mark.parametrize("solids", [(), (_ball(-0.5, RED),)])
 def test_a_line_of_many_points_looks_like_one_of_few(solids: tuple[Item, ...]) -> None:
     few, many = (np.linspace((0.5, -1.0, -0.5), (0.5, 1.0, 0.7), count) for count in (2, 6000))
