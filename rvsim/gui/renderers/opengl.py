@@ -202,6 +202,7 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
 
     def _paint(self) -> None:
         self.frame = self._frame_of(self.width(), self.height())
+        self._layers.shadow.prepare(self.frame)
         self.frame.functions.glEnable(GL.GL_MULTISAMPLE)  # the texts' painter has switched it off
         super().paintGL()
 
