@@ -18,7 +18,7 @@ _OCTAGON = np.stack([np.cos(_TURN), np.sin(_TURN)], axis=1) / math.cos(math.pi /
 _RINGS = ((-1.0, 1.33), (0.2, 1.0), (1.0, 0.35))  # (height, width), each relative to half the box
 
 
-def framed(camera: Camera, bounds: ArrayLike, width: float, height: float, margin: float = 0.04) -> Camera:
+def framed(camera: Camera, bounds: ArrayLike, width: float, height: float, margin: float = 0.02) -> Camera:
     """From the same direction, with what an arm reaches inside `bounds` (2, 3) [m] in the middle and as large as fits.
 
     Each side of the picture is a plane through the eye; the planes are moved until they touch the outermost points.

@@ -234,7 +234,7 @@ class ResultSection(QGroupBox):
 
     def _show_numbers(self, tracking: Tracking) -> None:
         self.reached.setText(f"{tracking.reached_count} of {tracking.samples} points")
-        of_reached = " (reached points)" if tracking.reached_count < tracking.samples else ""
+        of_reached = " (reached points)" if 0 < tracking.reached_count < tracking.samples else ""
         self.rms.setText(_deviation(tracking.rms, tracking) + of_reached)
         self.largest.setText(_deviation(tracking.max_deviation, tracking) + of_reached)
         milliseconds = tracking.solve_seconds * 1e3
