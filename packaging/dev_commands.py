@@ -55,7 +55,7 @@ def _become(command: list[str]) -> int:
 
 def _track_the_line(python: str) -> int:
     """The main job without a window: the RV-M1 tracks the source's line. rvsim names the files that it writes."""
-    print("There is no display here, so no window can open: tracking the RV-M1's line of source 000 off-screen.", flush=True)
+    print("There is no display here, so no window can open. Off-screen the RV-M1 tracks source 000's line.", flush=True)
     out = ROOT / "out"
     out.mkdir(exist_ok=True)
     files = ["--csv", str(out / "rv-m1-line.csv"), "--png", str(out / "rv-m1-line.png")]

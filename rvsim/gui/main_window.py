@@ -48,7 +48,7 @@ class MainWindow(QMainWindow):
         self.session, self.preferences, self.library = session, preferences, library
         self.motion = MotionControl(session, preferences, self)
         self.tracker = PathTracker(session, self.motion, self)
-        self.scene_view = SceneView(renderer_factory(choice))
+        self.scene_view = SceneView(renderer_factory(choice, session.warn))
         self.stage = Stage(session, self.motion, preferences, self.scene_view, self)
         self.tool_card = ToolCard(session, preferences, self.scene_view)
         self.player_bar = PlayerBar(self.motion, preferences)
