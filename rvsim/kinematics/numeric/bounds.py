@@ -61,4 +61,4 @@ def start_ranges(robot: Robot, bounds: Bounds) -> FloatArray:
     lower = np.where(np.isfinite(bounds.lower), bounds.lower, below)
     upper = np.where(np.isfinite(bounds.upper), bounds.upper, lower + 2.0 * widest)
     middle, half = 0.5 * (lower + upper), np.minimum(0.5 * (upper - lower), widest)
-    return np.stack([middle - half, middle + half], axis=-1)
+    return np.stack([np.maximum(middle - half, lower), np.minimum(middle + half, upper)], axis=-1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Protocol
 
 import numpy as np
@@ -52,9 +53,11 @@ class LeastSquares:
 
 
 def _least_squares(J: FloatArray, error: FloatArray, damping: float) -> FloatArray:
-    if damping == 0.0:
-        return np.asarray(np.linalg.lstsq(J, error, rcond=_RANK)[0])
-    return np.asarray(np.linalg.solve(J.T @ J + damping * np.eye(J.shape[1]), J.T @ error), np.float64)
+    """Δq (n,) of (JᵀJ + λ 1) Δq = Jᵀ e; of least length where the damping is 0 or too small to count."""
+    if damping > 0.0:
+        with suppress(np.linalg.LinAlgError):
+            return np.asarray(np.linalg.solve(J.T @ J + damping * np.eye(J.shape[1]), J.T @ error), np.float64)
+    return np.asarray(np.linalg.lstsq(J, error, rcond=_RANK)[0])
 
 
 def _none(_problem: Problem, _here: Evaluation) -> float:
