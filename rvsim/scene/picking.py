@@ -58,3 +58,21 @@ def _points(item: Item) -> FloatArray:
     if isinstance(item, Box):
         return item.T_base_box[None, :3, 3]
     return np.empty((0, 3)) if isinstance(item, Labels) else item.T_base_frame[:, :3, 3]
+
+
+def polyline_distance(pixels: FloatArray, x: float, y: float) -> float:
+    """How far a pixel (x, y) is from a line through pixels (k, 2), or from the only point."""
+    at = np.array([x, y])
+    if len(pixels) == 1:
+        return float(np.linalg.norm(pixels[0] - at))
+    starts, steps = pixels[:-1], np.diff(pixels, axis=0)
+    squared = np.maximum(np.sum(steps**2, axis=1), 1e-12)
+    shares = np.clip(np.sum((at - starts) * steps, axis=1) / squared, 0.0, 1.0)
+    return float(np.linalg.norm(starts + shares[:, None] * steps - at, axis=1).min())
+
+
+def inside_polygon(pixels: FloatArray, x: float, y: float) -> bool:
+    """Whether a pixel (x, y) lies within a convex polygon of pixels (k, 2)."""
+    edges, to = np.roll(pixels, -1, axis=0) - pixels, np.array([x, y]) - pixels
+    sides = edges[:, 0] * to[:, 1] - edges[:, 1] * to[:, 0]
+    return bool((sides >= 0.0).all() or (sides <= 0.0).all())

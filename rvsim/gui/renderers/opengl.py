@@ -23,6 +23,7 @@ from rvsim.gui.renderers.opengl_strokes import StrokeLayer
 from rvsim.gui.renderers.painter_ink import qcolor
 from rvsim.scene import Box, Camera, Capsule, Color, Dots, Labels, Polyline, Scene, Segments, Triads
 from rvsim.scene.floor import FLOOR_KEY
+from rvsim.scene.gizmo import GIZMO_KEY
 from rvsim.scene.palette import DARK, LIGHT, luminance
 
 _PROOF = 16  # pixels
@@ -60,6 +61,7 @@ class _Layers(NamedTuple):
     bodies: BodyLayer
     lines: StrokeLayer
     frames: StrokeLayer
+    gizmo: StrokeLayer
     texts: LabelLayer
 
 
@@ -73,6 +75,7 @@ def _new_layers() -> _Layers:
         BodyLayer(units),
         StrokeLayer(),
         StrokeLayer(on_top=True),
+        StrokeLayer(use_depth=False),
         LabelLayer(),
     )
 
@@ -128,7 +131,9 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
         layers.ghosts.show_items(body for body in bodies if body.color.alpha < 1.0)
         layers.bodies.show_items(opaque)
         layers.shadow.show_shadow(layers.bodies.placed if floor else {}, _shadow_color(background))
-        layers.lines.show_items((item for item in things if isinstance(item, _LINES)), background)
+        lines = [item for item in things if isinstance(item, _LINES)]
+        layers.lines.show_items((item for item in lines if not item.key.startswith(GIZMO_KEY)), background)
+        layers.gizmo.show_items((item for item in lines if item.key.startswith(GIZMO_KEY)), background)
         layers.frames.show_items((item for item in things if isinstance(item, Triads)), background)
         layers.texts.show_items((item for item in scene.items if isinstance(item, Labels | Triads)), background)
         self.setBackgroundColor(qcolor(background))

@@ -29,6 +29,7 @@ from rvsim.gui.renderers.painter_shadow import draw_shadow
 from rvsim.gui.renderers.painter_solids import Solid
 from rvsim.scene import Box, Camera, Capsule, Color, Dots, Item, Labels, Polyline, Scene, Segments, Triads
 from rvsim.scene.floor import FLOOR_KEY
+from rvsim.scene.gizmo import GIZMO_KEY
 
 
 class _Layers(NamedTuple):
@@ -39,6 +40,7 @@ class _Layers(NamedTuple):
     solids: list[Seen[Solid]]
     lines: list[Seen[Item]]
     triads: list[Seen[Triads]]
+    gizmo: list[Seen[Item]]
     labels: list[Seen[Labels]]
 
 
@@ -58,18 +60,23 @@ def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, hei
         solids.draw(painter)
     _paint(painter, [stroke for seen in layers.lines for stroke in _line_strokes(seen, lens, solids)])
     _paint(painter, [stroke for seen in layers.triads for stroke in triad_strokes(seen, lens, scene.background)])
+    for seen in layers.gizmo:  # nothing hides what is to be taken hold of
+        for stroke in _line_strokes(seen, lens, None):
+            stroke.draw(painter)
     for seen in layers.labels:
         draw_labels(painter, seen, lens, scene.background)
 
 
 def _layers(everything: Iterable[Seen[Item]]) -> _Layers:
-    layers = _Layers([], [], [], [], [], [])
+    layers = _Layers([], [], [], [], [], [], [])
     for seen in everything:
         item, eye, pixels = seen
         if isinstance(item, Labels):
             layers.labels.append(Seen(item, eye, pixels))
         elif item.key.startswith(FLOOR_KEY):
             layers.floor.append(seen)
+        elif item.key.startswith(GIZMO_KEY):
+            layers.gizmo.append(seen)
         elif isinstance(item, Capsule | Box):
             (layers.solids if item.color.alpha >= 1.0 else layers.ghosts).append(Seen(item, eye, pixels))
         elif isinstance(item, Triads):
