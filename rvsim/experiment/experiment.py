@@ -59,7 +59,10 @@ class TrajectoryTask:
 
 @dataclass(frozen=True, eq=False)
 class Experiment:
-    """One arm, its present pose q (n,) [rad, m], and what is to be done with it."""
+    """One arm, its present pose q (n,) [rad, m], and what is to be done with it.
+
+    `target` (4, 4) is the tool pose that was wanted where the arm could not follow; None is the tool's own.
+    """
 
     robot: Robot
     q: FloatArray
@@ -67,9 +70,12 @@ class Experiment:
     trajectory: TrajectoryTask = field(default_factory=TrajectoryTask)
     ignore_limits: bool = False
     poses: tuple[NamedPose, ...] = ()
+    target: FloatArray | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "q", frozen_array("q", self.q, (self.robot.dof,)))
+        if self.target is not None:
+            object.__setattr__(self, "target", frozen_array("target", self.target, (4, 4)))
 
     def at(self, q: ArrayLike) -> Experiment:
         """In another pose. The pose is taken as it is: ask `limit_violations` first."""
