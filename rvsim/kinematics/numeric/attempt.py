@@ -15,8 +15,8 @@ from rvsim.kinematics.numeric.step import Step
 from rvsim.spatial.arrays import FloatArray
 
 Clock = Callable[[], float]
-# The cost must fall by this part to count as progress.
-_PROGRESS = 0.01
+# The cost must fall to this part to count as progress; slower, a thousand iterations would not be enough.
+_PROGRESS = 0.5
 
 
 class Budget:
@@ -108,7 +108,7 @@ class _Rules:
         return "progress" if self._stuck(there.cost) else None
 
     def _stuck(self, cost: float) -> bool:
-        if cost < (1.0 - _PROGRESS) * self._best:
+        if cost < _PROGRESS * self._best:
             self._best, self._waited = cost, 0
         else:
             self._waited += 1

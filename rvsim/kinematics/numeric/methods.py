@@ -16,6 +16,10 @@ from rvsim.spatial.arrays import FloatArray
 
 # Singular values below this part of the largest one count as 0: their direction cannot be moved in.
 _RANK = 1e-9
+# The error (weighted, in radians and lengths) below which constant damping fades.
+_SMALL_ERROR = 0.01
+# How fast the damping grows after a step uphill, and up to which factor.
+_MORE, _MOST_CAUTION = 8.0, 1e9
 
 
 # λ of (JᵀWJ + λ 1) Δq = JᵀW e; 0 stands for the pseudoinverse.
@@ -41,8 +45,12 @@ class LeastSquares:
         self._roots = np.sqrt(problem.weights)
 
     def step(self, here: Evaluation) -> Step:
+        """Solve the linear system with the damping of the rule."""
+        return self.damped_step(here, self._damping(self._problem, here))
+
+    def damped_step(self, here: Evaluation, damping: float) -> Step:
         """Solve the linear system, shorten the motion to the step limit, stop at the limits."""
-        problem, damping = self._problem, self._damping(self._problem, here)
+        problem = self._problem
         free = problem.free(here)
         motion = np.zeros(len(here.q))
         if free.any():
@@ -50,6 +58,29 @@ class LeastSquares:
             motion[free] = _least_squares(J, self._roots * here.error, damping)
         q, motion = problem.move(here.q, problem.shortened(motion))
         return Step(problem.evaluate(q), motion, damping)
+
+
+class LevenbergMarquardt:
+    """Error-damped least squares that takes no step uphill: it damps more until the cost falls.
+
+    The damping alone (Sugihara 2011) lets the iterates jump to and fro where the error is small and the cost curved;
+    Marquardt's rule (1963, §3) ends that. The caution is kept for the next step, and relaxed when a step succeeds.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+        self._system = LeastSquares(problem, _none)
+        self._caution = 1.0
+
+    def step(self, here: Evaluation) -> Step:
+        """The least damped step that lowers the cost; the last one tried if none does."""
+        damping = _by_error(self._problem, here)
+        step = self._system.damped_step(here, damping * self._caution)
+        while damping > 0.0 and step.there.cost > here.cost and self._caution < _MOST_CAUTION:
+            self._caution *= _MORE
+            step = self._system.damped_step(here, damping * self._caution)
+        self._caution = max(1.0, self._caution / _MORE)
+        return step
 
 
 def _least_squares(J: FloatArray, error: FloatArray, damping: float) -> FloatArray:
@@ -65,9 +96,13 @@ def _none(_problem: Problem, _here: Evaluation) -> float:
     return 0.0
 
 
-def _constant(problem: Problem, _here: Evaluation) -> float:
-    """Damped least squares: λ² (Wampler 1986, eq. 13; Nakamura and Hanafusa 1986)."""
-    return problem.options.damping**2
+def _constant(problem: Problem, here: Evaluation) -> float:
+    """Damped least squares: λ² (Wampler 1986, eq. 13; Nakamura and Hanafusa 1986), until the error is small.
+
+    From there it fades with the error's square (after Chan and Lawrence 1988): a damping that stays would creep towards
+    a target that is nearly singular, and never arrive.
+    """
+    return problem.options.damping**2 * min(1.0, here.solution_error / _SMALL_ERROR) ** 2
 
 
 def _by_error(problem: Problem, here: Evaluation) -> float:
@@ -79,7 +114,7 @@ def _by_error(problem: Problem, here: Evaluation) -> float:
 _METHODS: dict[Solver, Callable[[Problem], Method]] = {
     "newton": lambda problem: LeastSquares(problem, _none),
     "dls": lambda problem: LeastSquares(problem, _constant),
-    "lm": lambda problem: LeastSquares(problem, _by_error),
+    "lm": LevenbergMarquardt,
     "bfgs": GradientProjection,
 }
 

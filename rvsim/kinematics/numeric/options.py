@@ -35,9 +35,9 @@ class SolverOptions:
         weights: six, of the rotation about x, y, z, then of the position along x, y, z, in base axes.
         length: the distance that counts as one [m]; 0.1 weighs as source 000 does, whose lengths are decimetres.
         position_tolerance, rotation_tolerance: what a solution must keep [m], [rad].
-        damping: λ of damped least squares [dls].
+        damping: λ of damped least squares while the error is above 0.01; below it fades [dls].
         step_limit: the largest joint motion of one step [rad, m]; longer steps are shortened.
-        patience: ends a try whose best cost has not fallen by a hundredth in so many iterations.
+        patience: ends a try whose cost has not halved in so many iterations.
         seed: of the random restarts.
     """
 
@@ -49,15 +49,15 @@ class SolverOptions:
     enforce_joint_limits: bool = True
     allow_random_restarts: bool = True
     error_change_tolerance: float = 1e-12
-    damping_bias: float = 1e-6
+    damping_bias: float = 1e-10
     use_error_damping: bool = True
     weights: tuple[float, float, float, float, float, float] = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
     length: float = 1.0
     position_tolerance: float = 1e-6
     rotation_tolerance: float = 1e-6
-    damping: float = 0.003
+    damping: float = 0.03
     step_limit: float = 1.0
-    patience: int = 40
+    patience: int = 25
     seed: int = 0
 
     def __post_init__(self) -> None:
