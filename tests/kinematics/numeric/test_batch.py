@@ -9,9 +9,9 @@ from rvsim import load_robot, robot_names
 from rvsim.errors import PoseError, ShapeError, UnknownNameError
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.numeric import solve_numeric_batch
-from rvsim.robot import Robot
+from rvsim.robot import Convention, Joint, Robot
 from rvsim.robot.arrays import FloatArray
-from rvsim.spatial import pose_difference, translation
+from rvsim.spatial import pose_difference, rotation_from_rpy, transform, translation
 
 TOLERANCE = 1e-6
 
@@ -50,6 +50,17 @@ def test_every_arm_reaches_what_it_can(name: str, task: str) -> None:
     difference = pose_difference(forward_kinematics(robot, result.q), T)
     assert difference.position.max() < TOLERANCE
     assert task == "position" or difference.angle.max() < TOLERANCE
+
+
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+@pytest.mark.parametrize("dof", [1, 2, 7])
+def test_an_arm_of_ones_own_needs_no_closed_form(dof: int, convention: Convention) -> None:
+    random = np.random.default_rng(dof)
+    rows = random.uniform([-3.0, -0.3, -0.3, -2.0], [3.0, 0.3, 0.3, 2.0], (dof, 4))
+    joints = [Joint(f"j{i}", "prismatic" if i == 3 else "revolute", *row, -2.0, 2.5) for i, row in enumerate(rows)]
+    base = transform(rotation_from_rpy([0.3, -0.5, 1.0]), [0.1, 0.2, 0.3])
+    robot = Robot("own", "An arm of one's own", convention, tuple(joints), base)
+    assert solve_numeric_batch(robot, reachable_poses(robot, 200)).converged.all()
 
 
 def test_what_cannot_be_reached_is_nan_and_not_converged() -> None:
