@@ -33,7 +33,7 @@ class MotionControl(QObject):
         self.player = Player()
         self.player.speed = preferences["speed"]
         self._text = ""
-        self._before: Experiment | None = None
+        self._motion = 0  # counts what was loaded: all of one motion is one undo step
         self._showing = False
         self._said_state = self.player.state
         self._clock = QElapsedTimer()
@@ -46,9 +46,10 @@ class MotionControl(QObject):
 
     def load(self, trajectory: Playable | None, text: str) -> None:
         """Put a trajectory in; `text` names its undo step, for instance "Track line"."""
-        self._rest()
+        self._timer.stop()
         self.player.load(trajectory)
         self._text = text
+        self._motion += 1
         self.loaded.emit()
         self._tell()
 
@@ -56,7 +57,6 @@ class MotionControl(QObject):
         """Let the motion run."""
         if self.player.trajectory is None:
             return
-        self._before = self._before or self._session.experiment
         self.player.play()
         self._clock.start()
         self._timer.start()
@@ -66,7 +66,7 @@ class MotionControl(QObject):
     def pause(self) -> None:
         """Hold where it is."""
         self.player.pause()
-        self._rest()
+        self._timer.stop()
         self._tell()
 
     def toggle(self) -> None:
@@ -79,19 +79,16 @@ class MotionControl(QObject):
     def stop(self) -> None:
         """Stop the motion; the arm goes back to its beginning."""
         self.player.stop()
+        self._timer.stop()
         self._show()
-        self._rest()
         self._tell()
 
     def seek(self, time: float) -> None:
         """Show another moment [s]."""
         if self.player.trajectory is None:
             return
-        self._before = self._before or self._session.experiment
         self.player.seek(time)
         self._show()
-        if not self.player.playing:
-            self._rest()
         self._tell()
 
     def step(self, seconds: float) -> None:
@@ -108,7 +105,7 @@ class MotionControl(QObject):
         if self.player.advance(dt):
             self._show()
         if not self.player.playing:
-            self._rest()
+            self._timer.stop()
         self._tell()
 
     # --- inside ----------------------------------------------------------------------------------------------------
@@ -122,21 +119,10 @@ class MotionControl(QObject):
             return
         self._showing = True
         try:
-            self._session.show_moment(q)
+            self._session.show_moment(q, self._text, self._motion)
         finally:
             self._showing = False
         self.moved.emit(self.player.time)
-
-    def _rest(self) -> None:
-        """The motion is over or held: remember it as one step."""
-        self._timer.stop()
-        if self._before is not None:
-            before, self._before = self._before, None
-            self._showing = True
-            try:
-                self._session.keep_motion(before, self._text)
-            finally:
-                self._showing = False
 
     def _tell(self) -> None:
         if self.player.state != self._said_state:
@@ -144,16 +130,13 @@ class MotionControl(QObject):
             self.state_changed.emit(self._said_state)
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
-        """Somebody else moved the arm: hold the motion; another arm: take the trajectory out."""
+        """Somebody else edits, or undoes: hold the motion; another arm: take the trajectory out."""
         if self._showing:
             return
-        self._before = None
-        self._timer.stop()
         if after.robot is not before.robot:
             self.load(None, "")
-        elif self.player.playing:
-            self.player.pause()
-        self._tell()
+        else:
+            self.pause()
 
     def _on_preference(self, name: str) -> None:
         if name == "speed":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import fields
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -33,6 +34,7 @@ class _Change(QUndoCommand):
             return False
         self._after = other._after
         self.setText(other.text())
+        self.setObsolete(_is_same(self._before, self._after))  # back where it began: there is nothing to undo
         return True
 
     def redo(self) -> None:
@@ -42,6 +44,12 @@ class _Change(QUndoCommand):
     def undo(self) -> None:
         """Go to the earlier state."""
         self._session._put(self._before)
+
+
+def _is_same(one: Experiment, other: Experiment) -> bool:
+    """Whether nothing has been edited between two states and the pose is the same."""
+    kept = (getattr(one, field.name) is getattr(other, field.name) for field in fields(Experiment) if field.name != "q")
+    return np.array_equal(one.q, other.q) and all(kept)
 
 
 class Session(QObject):
@@ -90,7 +98,7 @@ class Session(QObject):
     # --- edits -----------------------------------------------------------------------------------------------------
 
     def edit(self, text: str, experiment: Experiment, *, merge: str = "") -> None:
-        """Go to another state, undoably. Edits with the same `merge` key in a row, and no pause between, become one."""
+        """Go to another state, undoably. Edits with the same `merge` key in a row become one, until `end_stroke`."""
         key = f"{merge}#{self._merge_stroke}" if merge else ""
         self.undo_stack.push(_Change(self, text, experiment, key))
 
@@ -112,17 +120,10 @@ class Session(QObject):
             self.gliding = False
         return True
 
-    def show_moment(self, q: ArrayLike) -> None:
-        """Show a moment of a motion: the pose changes, the undo stack does not."""
-        self._put(self._experiment.at(q))
-
-    def keep_motion(self, start: Experiment, text: str) -> None:
-        """A motion that began at `start` has come to rest: one undo step leads back to its beginning."""
-        if start.robot is not self.robot or np.array_equal(start.q, self.q):
-            return
-        rest = self._experiment
-        self._experiment = start.at(start.q)
-        self.undo_stack.push(_Change(self, text, rest, ""))
+    def show_moment(self, q: ArrayLike, text: str, motion: int) -> None:
+        """Show a moment of a motion. All moments of the same number in a row are one undo step, back to the first."""
+        if not np.array_equal(q, self.q):
+            self.undo_stack.push(_Change(self, text, self._experiment.at(q), f"motion {motion}"))
 
     def use_robot(self, robot: Robot) -> None:
         """Take another arm, as it was left when it was last in use."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -58,6 +60,28 @@ def test_a_hand_on_a_joint_holds_the_motion(session: Session, motion: MotionCont
     np.testing.assert_allclose(np.degrees(session.q), [10.0, 0.0, -5.0, 0.0, 0.0])
 
 
+def test_undo_while_it_plays_goes_back_to_its_beginning_and_holds_it(session: Session, motion: MotionControl) -> None:
+    begin = np.radians([10.0, 0.0, -5.0, 0.0, 0.0])
+    session.move_to(begin, "Move waist")
+    motion.play()
+    motion.advance(0.2)
+    session.undo_stack.undo()
+    np.testing.assert_array_equal(session.q, begin)
+    assert motion.player.state == "paused"
+    session.undo_stack.undo()
+    np.testing.assert_array_equal(session.q, np.zeros(5))
+
+
+def test_an_edit_while_it_plays_leaves_a_way_back_to_its_beginning(session: Session, motion: MotionControl) -> None:
+    motion.play()
+    motion.advance(0.2)
+    session.edit("Ignore limits", replace(session.experiment, ignore_limits=True))
+    for _ in range(2):
+        session.undo_stack.undo()
+    np.testing.assert_array_equal(session.q, np.zeros(5))
+    assert not session.undo_stack.canUndo()
+
+
 def test_another_arm_takes_the_motion_out(session: Session, motion: MotionControl) -> None:
     session.use_robot(load_robot("ur5e"))
     assert motion.player.trajectory is None
@@ -70,3 +94,14 @@ def test_scrubbing_shows_each_moment(session: Session, motion: MotionControl) ->
     half = motion.player.duration / 2
     motion.seek(half)
     np.testing.assert_allclose(session.q, GOAL / 2, atol=1e-12)
+
+
+def test_scrubbing_to_and_fro_pausing_and_playing_on_are_one_undo_step(session: Session, motion: MotionControl) -> None:
+    for time in (0.1, 0.3, 0.2):
+        motion.seek(time)
+    motion.play()
+    motion.advance(0.1)
+    motion.pause()
+    assert session.undo_stack.count() == 1
+    session.undo_stack.undo()
+    np.testing.assert_array_equal(session.q, np.zeros(5))
