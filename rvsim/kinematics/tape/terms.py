@@ -71,7 +71,10 @@ class Tape:
 
     def term(self, value: Number) -> Term:
         """A constant as a term, its sign apart so that steps with 0.4 and −0.4 are the same."""
-        return value if isinstance(value, Term) else Term(self, repr(abs(value)), value < 0.0)
+        if isinstance(value, Term):
+            return value
+        number = float(value)  # numpy's own floats are written in another way
+        return Term(self, repr(abs(number)), number < 0.0)
 
     def cos_sin(self, joints: Sequence[int], constant: float) -> tuple[Number, Number]:
         """Cosine and sine of the sum of some joint variables and a constant [rad]; quarter turns are exact."""

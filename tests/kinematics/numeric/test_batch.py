@@ -57,7 +57,10 @@ def test_every_arm_reaches_what_it_can(name: str, task: str) -> None:
 def test_an_arm_of_ones_own_needs_no_closed_form(dof: int, convention: Convention) -> None:
     random = np.random.default_rng(dof)
     rows = random.uniform([-3.0, -0.3, -0.3, -2.0], [3.0, 0.3, 0.3, 2.0], (dof, 4))
-    joints = [Joint(f"j{i}", "prismatic" if i == 3 else "revolute", *row, -2.0, 2.5) for i, row in enumerate(rows)]
+    joints = [
+        Joint(f"j{i}", "prismatic" if i == 3 else "revolute", theta, d, a, alpha, lower=-2.0, upper=2.5)
+        for i, (theta, d, a, alpha) in enumerate(rows)
+    ]
     base = transform(rotation_from_rpy([0.3, -0.5, 1.0]), [0.1, 0.2, 0.3])
     robot = Robot("own", "An arm of one's own", convention, tuple(joints), base)
     assert solve_numeric_batch(robot, reachable_poses(robot, 200)).converged.all()
