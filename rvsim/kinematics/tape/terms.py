@@ -78,6 +78,7 @@ class Tape:
 
     def cos_sin(self, joints: Sequence[int], constant: float) -> tuple[Number, Number]:
         """Cosine and sine of the sum of some joint variables and a constant [rad]; quarter turns are exact."""
+        constant = float(constant)
         quarters = round(constant / (0.5 * math.pi))
         rest = constant - quarters * (0.5 * math.pi)
         cosine, sine = self._plain_cos_sin(tuple(joints), 0.0 if abs(rest) <= _ROUNDING else rest)
