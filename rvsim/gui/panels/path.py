@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rvsim.experiment import Experiment, LineTask, TrajectoryTask
+from rvsim.experiment import Experiment, LineTask, PathOrientation, TrajectoryTask
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_scientific, length_kind
 from rvsim.gui.quantity_box import QuantityBox
@@ -50,14 +50,13 @@ class LineSection(QGroupBox):
         self.resolution = QuantityBox("number", preferences, "Step as a fraction of the line")
         self.resolution.setObjectName("line_resolution")
         self.resolution.set_range(0.001, 1.0, "1 gives the two ends alone, 0.001 a thousand pieces.")
-        self.resolution.quantity_changed.connect(lambda value: self._edit("line step", resolution=value))
+        self.resolution.quantity_changed.connect(lambda value: self._edit("line step", "line step", resolution=value))
         self.resolution.refused.connect(session.warn)
+        self.resolution.editingFinished.connect(session.end_stroke)
         self.samples = QLabel()
         set_role(self.samples, role="muted")
         self.orientation = combo("line_orientation", "Tool orientation along the line", _LINE_ORIENTATIONS)
-        self.orientation.activated.connect(
-            lambda _: self._edit("line orientation", orientation=self.orientation.currentData())
-        )
+        self.orientation.activated.connect(lambda _: self._on_orientation(self.orientation.currentData()))
         tip = "Solve the line and move the tool along it (Ctrl+L)"
         self.button = button("track_line_button", "Track line", tip, tracker.track_line, primary=True)
         self._lay_out()
@@ -129,12 +128,16 @@ class LineSection(QGroupBox):
             self._session.edit(f"Line: {preset.title}", line)
 
     def _on_point(self, end: str) -> None:
-        self._edit(f"line {end}", **{end: [box.quantity for box in self.boxes[end]]})
+        self._edit(f"line {end}", f"line {end}", **{end: [box.quantity for box in self.boxes[end]]})
 
-    def _edit(self, what: str, **changes: Any) -> None:
+    def _on_orientation(self, orientation: PathOrientation) -> None:
+        if orientation != self._session.experiment.line.orientation:
+            self._edit("line orientation", orientation=orientation)
+
+    def _edit(self, what: str, merge: str = "", **changes: Any) -> None:
         experiment = self._session.experiment
         line = replace(experiment.line, **changes)
-        self._session.edit(f"Edit {what}", replace(experiment, line=line), merge=what)
+        self._session.edit(f"Edit {what}", replace(experiment, line=line), merge=merge)
 
 
 class TrajectorySection(QGroupBox):
@@ -146,10 +149,12 @@ class TrajectorySection(QGroupBox):
         self.selector = combo("trajectory_selector", "Trajectory")
         self.selector.activated.connect(self._on_chosen)
         self.orientation = combo("trajectory_orientation", "Tool orientation along the trajectory", _PATH_ORIENTATIONS)
-        self.orientation.activated.connect(lambda _: self._edit(orientation=self.orientation.currentData()))
+        self.orientation.activated.connect(lambda _: self._on_orientation(self.orientation.currentData()))
         self.plane = QuantityBox("length", preferences, "Height of the drawing plane")
         self.plane.setObjectName("trajectory_height")
-        self.plane.quantity_changed.connect(lambda value: self._edit(height=value))
+        self.plane.quantity_changed.connect(lambda value: self._edit("trajectory height", height=value))
+        self.plane.refused.connect(session.warn)
+        self.plane.editingFinished.connect(session.end_stroke)
         self.plane_label = QLabel("Height")
         self.notes = QLabel(wordWrap=True)
         set_role(self.notes, role="muted")
@@ -182,12 +187,17 @@ class TrajectorySection(QGroupBox):
     def _on_chosen(self, index: int) -> None:
         task = TrajectoryTask(self.selector.itemData(index))
         experiment = self._session.experiment
-        self._session.edit(f"Trajectory: {self.selector.itemText(index)}", replace(experiment, trajectory=task))
+        if task.name != experiment.trajectory.name:
+            self._session.edit(f"Trajectory: {self.selector.itemText(index)}", replace(experiment, trajectory=task))
 
-    def _edit(self, **changes: Any) -> None:
+    def _on_orientation(self, orientation: PathOrientation) -> None:
+        if orientation != self._session.experiment.trajectory.orientation:
+            self._edit(orientation=orientation)
+
+    def _edit(self, merge: str = "", **changes: Any) -> None:
         experiment = self._session.experiment
         task = replace(experiment.trajectory, **changes)
-        self._session.edit("Edit trajectory", replace(experiment, trajectory=task), merge="trajectory")
+        self._session.edit("Edit trajectory", replace(experiment, trajectory=task), merge=merge)
 
 
 class ResultSection(QGroupBox):

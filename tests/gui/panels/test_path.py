@@ -1,0 +1,90 @@
+"""The Path panel: each choice is an undo step of its own, and what was missed comes with what would help."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtWidgets import QComboBox, QPushButton
+
+from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.panels.path import PathPanel
+from rvsim.gui.tracker import PathTracker
+from rvsim.lab.lines import line_presets
+
+
+@pytest.fixture
+def panel(session_with, preferences, shown) -> PathPanel:
+    session = session_with("rv-m1")
+    motion = MotionControl(session, preferences, session)
+    return shown(PathPanel(session, preferences, PathTracker(session, motion, session)))
+
+
+def choose(panel: PathPanel, name: str, data: object) -> None:
+    box = panel.findChild(QComboBox, name)
+    box.setCurrentIndex(box.findData(data))
+    box.activated.emit(box.currentIndex())
+
+
+@pytest.mark.parametrize(
+    ("selector", "choices"),
+    [
+        ("line_orientation", ("free", "keep", "down")),
+        ("trajectory_orientation", ("free", "keep", "down")),
+        ("trajectory_selector", ("star", "letter-raw", "letter-flat")),
+    ],
+)
+def test_each_choice_is_an_undo_step_and_the_same_one_again_is_none(
+    panel: PathPanel, selector: str, choices: tuple[str, ...]
+) -> None:
+    stack = panel.line._session.undo_stack
+    for choice in choices:
+        choose(panel, selector, choice)
+        choose(panel, selector, choice)
+    assert stack.count() == len(choices)
+    stack.undo()
+    assert panel.findChild(QComboBox, selector).currentData() == choices[-2]
+
+
+def test_two_steps_typed_one_after_the_other_are_two_undo_steps(panel: PathPanel) -> None:
+    box = panel.line.resolution
+    for value in (0.05, 0.2):
+        box.setValue(value)
+        box.editingFinished.emit()
+    panel.line._session.undo_stack.undo()
+    assert box.value() == pytest.approx(0.05)
+
+
+def repairs(panel: PathPanel) -> set[str]:
+    return {button.text() for button in panel.result.findChildren(QPushButton)}
+
+
+def test_missed_points_come_with_what_would_help(panel: PathPanel) -> None:
+    preset = line_presets(panel.line._session.robot)[-1]
+    for end, point in (("start", preset.start), ("end", preset.end)):
+        for box, value in zip(panel.line.boxes[end], point, strict=True):
+            box.setValue(1e3 * value)
+    panel.line.button.click()
+    assert repairs(panel) == {"Free pitch", "Ignore limits", "Reachable line"}
+    assert "reached points" in panel.result.rms.text()
+
+
+@pytest.mark.parametrize(
+    ("name", "reached"), [("repair_free_pitch", 6), ("repair_ignore_limits", 11), ("repair_reachable_line", 51)]
+)
+def test_each_repair_of_the_sources_line_reaches_more_than_four_points(
+    panel: PathPanel, name: str, reached: int
+) -> None:
+    test_missed_points_come_with_what_would_help(panel)
+    panel.findChild(QPushButton, name).click()
+    assert panel.line._session.tracking.reached_count == reached
+
+
+def test_a_letter_out_of_reach_offers_the_drawable_placement(panel: PathPanel) -> None:
+    choose(panel, "trajectory_selector", "letter-raw")
+    panel.trajectory.button.click()
+    assert repairs(panel) == {"Drawable placement"}
+    assert panel.result.rms.text() == "–"
+    panel.findChild(QPushButton, "repair_drawable_placement").click()
+    tracking = panel.line._session.tracking
+    assert tracking.complete
+    assert not np.isnan(tracking.q).any()
