@@ -17,25 +17,28 @@ from rvsim.robot.arrays import FloatArray
 
 
 class _Change(QUndoCommand):
-    """From one experiment to the next. Consecutive changes with the same merge key become one."""
+    """From one experiment to the next."""
 
     def __init__(self, session: Session, text: str, after: Experiment, merge: str) -> None:
         super().__init__(text)
         self._session, self._merge = session, merge
         self._before, self._after = session.experiment, after
 
-    def id(self) -> int:
-        """Qt offers commands of equal id for merging; −1 is never merged."""
-        return 1 if self._merge else -1
+    def continues(self, merge: str) -> bool:
+        """Whether a change with that key goes on with this one."""
+        return bool(merge) and merge == self._merge
 
-    def mergeWith(self, other: QUndoCommand) -> bool:
-        """Swallow the next command if it goes on with the same thing."""
-        if not isinstance(other, _Change) or other._merge != self._merge:
-            return False
-        self._after = other._after
-        self.setText(other.text())
-        self.setObsolete(_is_same(self._before, self._after))  # back where it began: there is nothing to undo
-        return True
+    def extend(self, after: Experiment) -> None:
+        """Lead on to a still later state."""
+        self._after = after
+        self.redo()
+
+    @property
+    def leads_nowhere(self) -> bool:
+        """Whether the later state is the earlier one again, pose and all."""
+        others = (field.name for field in fields(Experiment) if field.name != "q")
+        same = all(getattr(self._before, name) is getattr(self._after, name) for name in others)
+        return same and np.array_equal(self._before.q, self._after.q)
 
     def redo(self) -> None:
         """Go to the later state."""
@@ -44,12 +47,6 @@ class _Change(QUndoCommand):
     def undo(self) -> None:
         """Go to the earlier state."""
         self._session._put(self._before)
-
-
-def _is_same(one: Experiment, other: Experiment) -> bool:
-    """Whether nothing has been edited between two states and the pose is the same."""
-    kept = (getattr(one, field.name) is getattr(other, field.name) for field in fields(Experiment) if field.name != "q")
-    return np.array_equal(one.q, other.q) and all(kept)
 
 
 class Session(QObject):
@@ -99,8 +96,24 @@ class Session(QObject):
 
     def edit(self, text: str, experiment: Experiment, *, merge: str = "") -> None:
         """Go to another state, undoably. Edits with the same `merge` key in a row become one, until `end_stroke`."""
-        key = f"{merge}#{self._merge_stroke}" if merge else ""
-        self.undo_stack.push(_Change(self, text, experiment, key))
+        self._change(text, experiment, f"{merge}#{self._merge_stroke}" if merge else "")
+
+    def _change(self, text: str, experiment: Experiment, key: str) -> None:
+        last = self._last_change()
+        # Not by QUndoCommand.mergeWith: the stack never lets go of the Python side of the commands that it merged.
+        if last is None or not last.continues(key):
+            self.undo_stack.push(_Change(self, text, experiment, key))
+            return
+        last.extend(experiment)
+        if last.leads_nowhere:
+            last.setObsolete(True)
+            self.undo_stack.undo()  # which takes an obsolete change out
+
+    def _last_change(self) -> _Change | None:
+        """The newest change, if nothing has been undone since."""
+        stack = self.undo_stack
+        last = stack.command(stack.index() - 1) if stack.index() == stack.count() > 0 else None
+        return last if isinstance(last, _Change) else None
 
     def end_stroke(self) -> None:
         """A slider has been released, a box left: the next edit is a new one."""
@@ -123,7 +136,7 @@ class Session(QObject):
     def show_moment(self, q: ArrayLike, text: str, motion: int) -> None:
         """Show a moment of a motion. All moments of the same number in a row are one undo step, back to the first."""
         if not np.array_equal(q, self.q):
-            self.undo_stack.push(_Change(self, text, self._experiment.at(q), f"motion {motion}"))
+            self._change(text, self._experiment.at(q), f"motion {motion}")
 
     def use_robot(self, robot: Robot) -> None:
         """Take another arm, as it was left when it was last in use."""
