@@ -71,6 +71,9 @@ def test_what_is_not_live_waits_for_plot(qtbot: QtBot, window: MainWindow) -> No
     assert window.session.q[0] == 0.0
     press(qtbot, window, "plot_button")
     assert window.session.q[0] == pytest.approx(np.pi / 2)
+    type_into(qtbot, window, "joint_value_1", "45")
+    press(qtbot, window, "live_switch")
+    assert window.session.q[0] == pytest.approx(np.pi / 4), "live again, the arm is where the boxes say"
 
 
 def test_a_value_outside_the_limits_is_refused_until_they_are_ignored(qtbot: QtBot, window: MainWindow) -> None:

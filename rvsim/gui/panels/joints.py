@@ -295,6 +295,8 @@ class JointsPanel(QWidget):
             self._show_limits()
         if name == "live":
             self.live.setChecked(self._preferences["live"])
+            if self._preferences["live"] and not np.array_equal(self._typed, self._session.q):
+                self.plot_typed()  # the arm follows what stands in the boxes
 
     def _show_limits(self) -> None:
         ignored = self._session.experiment.ignore_limits
