@@ -20,7 +20,7 @@ class PlayerBar(QWidget):
     def __init__(self, motion: MotionControl, preferences: Preferences, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._motion, self._preferences = motion, preferences
-        self.play = self._button("play_button", "▶ Play", "Play or pause (Space)", motion.toggle)
+        self.play = self._button("play_button", "▶ Play", "Play or pause (F5)", motion.toggle)
         metrics = QFontMetrics(self.play.font())
         self.play.setMinimumWidth(metrics.horizontalAdvance("❚❚ Pause") + 24)
         self.stop = self._button("stop_button", "■ Stop", "Stop and go back to the beginning", motion.stop)
