@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from itertools import product
 from typing import NamedTuple
 
@@ -83,6 +84,7 @@ def _preset(row: _Row) -> LinePreset:
     return LinePreset(row.name, row.title, start, end, row.resolution, row.orientation)
 
 
+@lru_cache(maxsize=8)
 def _found_line(robot: Robot) -> LinePreset:
     """The longest of a few lines about the tool's place at home, or in mid-range; else one that stays at home."""
     home, middle = (forward_kinematics(robot, q)[:3, 3] for q in (robot.home, _mid_range(robot)))
@@ -96,8 +98,14 @@ def _found_line(robot: Robot) -> LinePreset:
 
 
 def _can_draw(robot: Robot, preset: LinePreset) -> bool:
+    """Asked of a few points first: most lines fail there already, and a free orientation takes its time."""
+    steps = (0.25, preset.resolution)
+    return all(_draws(robot, preset_path(robot, preset._replace(resolution=step))) for step in steps)
+
+
+def _draws(robot: Robot, path: Path) -> bool:
     try:
-        tracking = track(robot, preset_path(robot, preset), near=robot.home)
+        tracking = track(robot, path, near=robot.home)
     except NoClosedFormError:
         return False
     return tracking.complete and not tracking.jumps

@@ -209,10 +209,11 @@ def named_path(
 
 
 def line_of(robot: Robot, task: LineTask, q: ArrayLike | None = None) -> Path:
-    """The path of an experiment's line."""
-    return named_path(
-        "line", robot, samples=task.samples, orientation=task.orientation, start=task.start, end=task.end, q=q
-    )
+    """The path of an experiment's line. It asks for no preset: for an arm of one's own those are found by trying."""
+    entry = path_entry("line")
+    points = line_path(task.start, task.end, task.samples).points
+    path = Path(entry.name, points, title=entry.title, notes=entry.citation)
+    return oriented(robot, path, task.orientation, entry.rotations, q)
 
 
 def _or_own(orientation: PathOrientation | None, own: PathOrientation) -> PathOrientation:

@@ -48,6 +48,23 @@ def test_an_arm_of_ones_own_gets_a_line_that_it_can_draw(name: str) -> None:
     assert np.linalg.norm(preset.end - preset.start) > 0.05 * robot.size
 
 
+def test_the_line_of_an_experiment_is_the_line_path_of_its_ends() -> None:
+    robot = load_robot("rv-m1")
+    task = default_experiment(robot).line
+    path = line_of(robot, task)
+    wanted = named_path("line", robot, samples=task.samples, start=task.start, end=task.end)
+    np.testing.assert_array_equal(path.points, wanted.points)
+    np.testing.assert_array_equal(path.rotations, wanted.rotations)
+
+
+def test_a_line_is_looked_for_once_an_arm(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = load_robot("rv-m1").renamed("mine", "Mine")
+    found = line_presets(robot)
+    monkeypatch.setattr("rvsim.lab.lines.track", None)
+    assert line_presets(robot) == found
+    assert line_of(robot, found[0].task()).samples == found[0].task().samples
+
+
 def test_an_arm_without_a_closed_form_still_has_an_experiment() -> None:
     skew = load_robot("rv-1a").renamed("mine", "Mine").with_joint(3, alpha=1.0)
     with pytest.raises(NoClosedFormError):
