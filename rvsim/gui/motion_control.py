@@ -131,7 +131,7 @@ class MotionControl(QObject):
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         """Somebody else edits, or undoes: hold the motion; another arm: take the trajectory out."""
-        if self._showing:
+        if self._showing or self.player.trajectory is None:
             return
         if after.robot is not before.robot:
             self.load(None, "")

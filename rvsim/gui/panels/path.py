@@ -30,6 +30,7 @@ from rvsim.lab.named_paths import path_entry, path_names
 from rvsim.lab.sentences import tracking_sentence
 from rvsim.motion import Tracking
 from rvsim.robot import Robot
+from rvsim.robot.edits import original_name
 
 _LINE_ORIENTATIONS = {"down": "Tool straight down", "free": "Tool tilts as it likes", "keep": "Tool as it is now"}
 _PATH_ORIENTATIONS = {"source": "As in the source", **_LINE_ORIENTATIONS}
@@ -117,9 +118,10 @@ class LineSection(QGroupBox):
 
     def _presets_of(self, robot: Robot) -> tuple[LinePreset, ...]:
         """Looked for once an arm: an arm that is being edited keeps those that it began with."""
-        if robot.name not in self._known_presets:
-            self._known_presets[robot.name] = line_presets(robot)
-        return self._known_presets[robot.name]
+        name = original_name(robot)
+        if name not in self._known_presets:
+            self._known_presets[name] = line_presets(robot)
+        return self._known_presets[name]
 
     def _on_preset(self, index: int) -> None:
         preset = self.presets.itemData(index)
