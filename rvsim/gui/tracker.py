@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from PySide6.QtCore import QObject, Signal
 
 from rvsim.errors import RvsimError
-from rvsim.experiment import Experiment, TrajectoryTask
+from rvsim.experiment import Experiment, TrajectoryTask, limit_violations
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.session import Session
 from rvsim.lab.lines import line_presets
@@ -41,6 +41,7 @@ class PathTracker(QObject):
         super().__init__(parent)
         self._session, self._motion = session, motion
         self.kind = "line"
+        session.changed.connect(self._on_changed)
 
     def track_line(self) -> None:
         """Track the line of the panel, and play it."""
@@ -62,6 +63,20 @@ class PathTracker(QObject):
         """Change what the repair changes, and track again."""
         self._session.edit(repair.title, repair.experiment)
         self._track(self.kind, repair.title)
+
+    def clear(self) -> None:
+        """Take the tracked path and its motion out."""
+        self._motion.load(None, "")
+        self._session.set_tracking(None)
+
+    def _on_changed(self, before: Experiment, after: Experiment) -> None:
+        """Limits that are heeded again are heeded by a motion that was worked out without them as well."""
+        tracking = self._session.tracking
+        if tracking is None or not before.ignore_limits or after.ignore_limits:
+            return
+        if any(limit_violations(tracking.robot, q) for q in tracking.q[tracking.reached]):
+            self.clear()
+            self._session.say("The path led beyond the limits, which count again: track it once more.", "warning")
 
     # --- inside ----------------------------------------------------------------------------------------------------
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtWidgets import QComboBox, QPushButton
@@ -88,3 +90,21 @@ def test_a_letter_out_of_reach_offers_the_drawable_placement(panel: PathPanel) -
     tracking = panel.line._session.tracking
     assert tracking.complete
     assert not np.isnan(tracking.q).any()
+
+
+def test_limits_that_count_again_take_a_path_out_that_leads_beyond_them(panel: PathPanel) -> None:
+    session = panel.line._session
+    test_missed_points_come_with_what_would_help(panel)
+    panel.findChild(QPushButton, "repair_ignore_limits").click()
+    session.edit("Respect limits", replace(session.experiment, ignore_limits=False))
+    assert session.tracking is None
+    assert "beyond the limits" in session.sentences[-1][0]
+
+
+def test_limits_that_count_again_leave_a_path_that_heeds_them(panel: PathPanel) -> None:
+    session = panel.line._session
+    line = line_presets(session.robot)[0].task()
+    session.edit("Ignore limits", replace(session.experiment, ignore_limits=True, line=line))
+    panel.line.button.click()
+    session.edit("Respect limits", replace(session.experiment, ignore_limits=False))
+    assert session.tracking is not None
