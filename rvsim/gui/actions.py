@@ -8,6 +8,7 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
 Key = QKeySequence.StandardKey
+_NATIVE = QKeySequence.SequenceFormat.NativeText
 
 
 class ActionSpec(NamedTuple):
@@ -16,8 +17,8 @@ class ActionSpec(NamedTuple):
     name: str
     menu: str
     text: str
-    tip: str = ""
-    shortcut: str | QKeySequence.StandardKey = ""
+    tip: str
+    shortcut: str | QKeySequence.StandardKey
     checkable: bool = False
     group: str = ""
     before: bool = False
@@ -28,10 +29,10 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("save_robot", "&File", "Save robot file as…", "Write this arm as a .toml file", Key.SaveAs),
     ActionSpec("save_picture", "&File", "Save picture…", "Save the scene as a picture", "Ctrl+Shift+P", before=True),
     ActionSpec("save_csv", "&File", "Save path as CSV…", "Save the tracked path with its joints", "Ctrl+Shift+E"),
-    ActionSpec("quit", "&File", "Quit", "Close rvsim", Key.Quit, before=True),
+    ActionSpec("quit", "&File", "Quit", "Close rvsim", "Ctrl+Q", before=True),
     ActionSpec("copy_pose_text", "&Edit", "Copy pose as text", "Joints and tool pose", "Ctrl+Shift+C", before=True),
-    ActionSpec("copy_pose_numpy", "&Edit", "Copy pose as NumPy", "Joint values and tool pose, full precision"),
-    ActionSpec("copy_pose_latex", "&Edit", "Copy pose as LaTeX", "The tool's matrix"),
+    ActionSpec("copy_pose_numpy", "&Edit", "Copy pose as NumPy", "Joints and tool, full precision", "Ctrl+Shift+N"),
+    ActionSpec("copy_pose_latex", "&Edit", "Copy pose as LaTeX", "The tool's matrix", "Ctrl+Shift+K"),
     ActionSpec("view_iso", "&View", "Isometric", "Look from the front corner", "Ctrl+1"),
     ActionSpec("view_top", "&View", "Top", "Look straight down", "Ctrl+2"),
     ActionSpec("view_front", "&View", "Front", "Look along −x", "Ctrl+3"),
@@ -40,26 +41,26 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("fit", "&View", "Fit", "The whole arm in view", "Ctrl+0"),
     ActionSpec("box_zoom", "&View", "Zoom to a box", "Draw a box around what you want to see", "Ctrl+B"),
     ActionSpec("orthographic", "&View", "Orthographic", "Parallel lines stay parallel", "Ctrl+6", True),
-    ActionSpec("look_stick", "&View", "Stick figure", "Lines and joints only", "", True, "look", True),
-    ActionSpec("look_solid", "&View", "Solid", "The arm's body", "", True, "look"),
-    ActionSpec("look_both", "&View", "Solid and stick", "The figure inside the body", "", True, "look"),
+    ActionSpec("look_stick", "&View", "Stick figure", "Lines and joints only", "Ctrl+7", True, "look", True),
+    ActionSpec("look_solid", "&View", "Solid", "The arm's body", "Ctrl+8", True, "look"),
+    ActionSpec("look_both", "&View", "Solid and stick", "The figure inside the body", "Ctrl+9", True, "look"),
     ActionSpec("show_frames", "&View", "Frames", "Frames of base, joints and tool", "Ctrl+F", True, before=True),
-    ActionSpec("show_labels", "&View", "Labels", "Names in the scene", "", True),
-    ActionSpec("show_floor", "&View", "Floor", "The floor with its dimensions", "", True),
-    ActionSpec("show_trail", "&View", "Tool trail", "What the tool has drawn", "", True),
+    ActionSpec("show_labels", "&View", "Labels", "Names in the scene", "Ctrl+Shift+B", True),
+    ActionSpec("show_floor", "&View", "Floor", "The floor with its dimensions", "Ctrl+Shift+G", True),
+    ActionSpec("show_trail", "&View", "Tool trail", "What the tool has drawn", "Ctrl+Shift+T", True),
     ActionSpec("dark", "&View", "Dark", "Light letters on a dark ground", "Ctrl+Shift+D", True, before=True),
     ActionSpec("presentation", "&View", "Presentation size", "Larger, for a projector", "Ctrl+Shift+F", True),
-    ActionSpec("radians", "&View", "Angles in radians", "Instead of degrees", "", True, before=True),
-    ActionSpec("metres", "&View", "Lengths in metres", "Instead of millimetres", "", True),
+    ActionSpec("radians", "&View", "Angles in radians", "Instead of degrees", "Ctrl+Shift+R", True, before=True),
+    ActionSpec("metres", "&View", "Lengths in metres", "Instead of millimetres", "Ctrl+Shift+M", True),
     ActionSpec("more_decimals", "&View", "More decimals", "One more decimal everywhere", "Ctrl+."),
     ActionSpec("fewer_decimals", "&View", "Fewer decimals", "One decimal less everywhere", "Ctrl+,"),
-    ActionSpec("animated", "&View", "Smooth moves", "Camera and arm glide to where they go", "", True),
+    ActionSpec("animated", "&View", "Smooth moves", "Camera and arm glide to where they go", "Ctrl+Shift+A", True),
     ActionSpec("home", "&Robot", "Home", "The arm's home pose", "Ctrl+H"),
     ActionSpec("zero", "&Robot", "Zero", "All joint variables 0", "Ctrl+Shift+H"),
     ActionSpec("random", "&Robot", "Random pose", "Any pose within the limits", "Ctrl+R"),
     ActionSpec("plot", "&Robot", "Plot", "Draw the arm at the typed values", "Ctrl+Return"),
     ActionSpec("save_pose", "&Robot", "Save pose…", "Remember this pose under a name", "Ctrl+D"),
-    ActionSpec("live", "&Robot", "Live", "The arm follows each value at once", "", True, before=True),
+    ActionSpec("live", "&Robot", "Live", "The arm follows each value at once", "Ctrl+Shift+L", True, before=True),
     ActionSpec("ignore_limits", "&Robot", "Ignore limits", "Let joints go beyond their limits", "Ctrl+I", True),
     ActionSpec("track_line", "&Path", "Track line", "Move the tool along the line", "Ctrl+L"),
     ActionSpec("track_trajectory", "&Path", "Track trajectory", "Move the tool along the trajectory", "Ctrl+T"),
@@ -70,7 +71,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("step_back", "&Path", "Step back", "A little earlier", "F6"),
     ActionSpec("quick_start", "&Help", "Quick start", "The first minute with rvsim", Key.HelpContents),
     ActionSpec("shortcuts", "&Help", "Keyboard shortcuts", "All of them", "Ctrl+/"),
-    ActionSpec("about", "&Help", "About rvsim", "Version and diagnostics", before=True),
+    ActionSpec("about", "&Help", "About rvsim", "Version and diagnostics", "Ctrl+F1", before=True),
 )
 
 MENUS = ("&File", "&Edit", "&View", "&Robot", "&Path", "&Help")
@@ -104,18 +105,11 @@ def _action(window: QMainWindow, spec: ActionSpec) -> QAction:
     action.setObjectName(f"action_{spec.name}")
     action.setCheckable(spec.checkable)
     action.setStatusTip(spec.tip)
-    if spec.shortcut:
-        action.setShortcut(QKeySequence(spec.shortcut))
-    keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-    action.setToolTip(f"{spec.tip} ({keys})" if keys else spec.tip)
+    action.setShortcut(QKeySequence(spec.shortcut))
+    action.setToolTip(f"{spec.tip} ({action.shortcut().toString(_NATIVE)})")
     return action
 
 
 def shortcut_table() -> list[tuple[str, str, str]]:
-    """Menu, command and keys of every command that has keys."""
-    rows = []
-    for spec in ACTIONS:
-        keys = QKeySequence(spec.shortcut).toString(QKeySequence.SequenceFormat.NativeText) if spec.shortcut else ""
-        if keys:
-            rows.append((spec.menu.replace("&", ""), spec.text, keys))
-    return rows
+    """Menu, command and keys of every command."""
+    return [(spec.menu.replace("&", ""), spec.text, QKeySequence(spec.shortcut).toString(_NATIVE)) for spec in ACTIONS]
