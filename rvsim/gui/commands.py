@@ -13,10 +13,10 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from rvsim.errors import RvsimError
-from rvsim.files import save_robot, user_folder, user_robot_path
 from rvsim.files.atomic import write_atomically
 from rvsim.gui.actions import shortcut_table
 from rvsim.gui.diagnostics import diagnostics
+from rvsim.gui.panels.user_robot import ask_what_to_open, ask_where_to_save, opened, saved
 from rvsim.gui.picture import save_image
 from rvsim.gui.quantities import format_quantity, joint_kind
 from rvsim.kinematics import forward_kinematics
@@ -112,7 +112,7 @@ class Commands(QObject):
             "ignore_limits": joints.ignore.toggle,
             "track_line": window.tracker.track_line,
             "track_trajectory": window.tracker.track_trajectory,
-            "clear_path": self.clear_path,
+            "clear_path": window.tracker.clear,
             "play": motion.toggle,
             "stop": motion.pause,
             "step_forward": lambda: motion.step(0.05),
@@ -160,27 +160,29 @@ class Commands(QObject):
 
     def open_robot(self) -> None:
         """Ask for a robot file and take its arm."""
-        file, _ = QFileDialog.getOpenFileName(self._window, "Open robot file", self._folder(), "Robot files (*.toml)")
-        if file:
-            self.open_robot_file(Path(file))
+        file = ask_what_to_open(self._window, self._session.robot)
+        if file is not None:
+            self.open_robot_file(file)
 
     def open_robot_file(self, file: Path) -> None:
         """Take the arm of a robot file, or say what is wrong with it."""
-        try:
-            robot = self._window.library.open(file)
-        except (RvsimError, OSError) as problem:
-            self._fail("This robot file cannot be used.", problem)
+        robot, sentence = opened(file)
+        if robot is None:
+            self._fail("This robot file cannot be used.", sentence)
             return
-        self._window.joints.show_robots(self._window.library.titles, robot.name)
         self._session.use_robot(robot)
-        self._session.say(f"Opened the {robot.title} from {file.name}.")
+        self._session.say(sentence)
 
     def save_robot(self) -> None:
         """Ask for a place and write the present arm there."""
-        start = str(user_robot_path(self._session.robot.title))
-        file, _ = QFileDialog.getSaveFileName(self._window, "Save robot file", start, "Robot files (*.toml)")
-        if file:
-            self._write(Path(file), lambda path: save_robot(self._session.robot, path))
+        file = ask_where_to_save(self._window, self._session.robot)
+        if file is None:
+            return
+        done, sentence = saved(self._session.robot, file)
+        if done:
+            self._session.say(sentence)
+        else:
+            self._fail("Nothing was written.", sentence)
 
     def save_picture(self) -> None:
         """Ask for a place and save the scene there."""
@@ -203,27 +205,19 @@ class Commands(QObject):
         try:
             write(file)
         except (RvsimError, OSError) as problem:
-            self._fail("Nothing was written.", problem)
+            self._fail("Nothing was written.", str(problem))
             return
         self._session.say(f"Saved {file}.")
 
-    def _folder(self) -> str:
-        return str(user_folder())
-
-    def _fail(self, what: str, problem: Exception) -> None:
+    def _fail(self, what: str, problem: str) -> None:
         self._session.say(f"{what} {problem}", "error")
         box = QMessageBox(QMessageBox.Icon.Warning, "rvsim", what, parent=self._window)
         box.setObjectName("file_problem")
-        box.setInformativeText(str(problem))
+        box.setInformativeText(problem)
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.open()
 
     # --- the rest --------------------------------------------------------------------------------------------------
-
-    def clear_path(self) -> None:
-        """Take the tracked path and its motion out."""
-        self._window.motion.load(None, "")
-        self._session.set_tracking(None)
 
     def _copy_pose(self, text_of: Callable[[Any], str]) -> None:
         robot, q = self._session.robot, self._session.q
@@ -257,7 +251,7 @@ class Commands(QObject):
         renderer = self._window.scene_view.renderer.description
         self._tell(
             "About rvsim",
-            "<h3>rvsim</h3><p>See, move, compute and understand a robot arm, then drive a real one.<br>"
+            "<h3>rvsim</h3><p>See, move, compute and understand a robot arm.<br>"
             f"MIT licence. Built with Qt (LGPL).</p><pre>{diagnostics(renderer)}</pre>",
         )
 

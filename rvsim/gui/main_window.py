@@ -172,14 +172,12 @@ class MainWindow(QMainWindow):
             self._show_robot()
 
     def _show_robot(self) -> None:
-        robot = self.session.robot
-        known = robot.name in self.library
+        robot, titles = self.session.robot, self.library.titles
         self.library.remember(robot)
-        if not known or self.joints.robots.count() == 0:
+        if self.library.titles != titles or self.joints.robots.count() == 0:
             self.joints.show_robots(self.library.titles, robot.name)
         self.setWindowTitle(f"{robot.title} \u2013 rvsim")
-        if robot.name in self.library:
-            self.preferences.set("robot", robot.name)
+        self.preferences.set("robot", robot.name)
 
     def _on_preference(self, name: str) -> None:
         if name in ("theme", "presentation"):

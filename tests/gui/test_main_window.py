@@ -113,6 +113,9 @@ def test_a_robot_file_is_opened_and_a_bad_one_explained(window: MainWindow, tmp_
     window.commands.open_robot_file(good)
     assert window.session.robot.name == "mine"
     assert window.joints.robots.currentText() == "Mine"
+    save_robot(load_robot("rv-m1").renamed("mine", "Mine, second edition"), good)
+    window.commands.open_robot_file(good)
+    assert window.joints.robots.currentText() == "Mine, second edition"
     bad.write_text(good.read_text(encoding="utf-8").replace("[[joint]]", "[[jiont]]"), encoding="utf-8")
     window.commands.open_robot_file(bad)
     box = next(box for box in QApplication.topLevelWidgets() if isinstance(box, QMessageBox))
