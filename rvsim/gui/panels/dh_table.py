@@ -26,7 +26,7 @@ from rvsim.gui.panels.dh_editor import CellDelegate
 from rvsim.gui.panels.dh_model import COLUMNS, DH_COLUMNS, LIMIT_COLUMNS, DHModel, column_of_key
 from rvsim.gui.panels.shown import NUMBER_SETTINGS, ReadOutPanel
 from rvsim.gui.panels.tables import fit_height, plain_table
-from rvsim.gui.panels.user_robot import ask_what_to_open, ask_where_to_save, opened, own_copy, saved
+from rvsim.gui.panels.user_robot import ask_what_to_open, ask_where_to_save, is_own, opened, own_copy, saved
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_quantity, joint_kind
 from rvsim.gui.session import Session
@@ -52,7 +52,7 @@ class DHTablePanel(ReadOutPanel):
     def __init__(self, session: Session, preferences: Preferences, parent: QWidget | None = None) -> None:
         super().__init__(session, preferences, parent)
         self.setObjectName("dh_panel")
-        self._originals: dict[str, Robot] = {session.robot.name: session.robot}
+        self._originals: dict[str, Robot] = {}  # of each own arm
         self.model = DHModel(session.robot, preferences, self)
         self.model.edited.connect(lambda joint, key, value: self.edit_value(joint, cast(DHKey, key), value))
         self.model.refused.connect(self._complain)
@@ -133,6 +133,8 @@ class DHTablePanel(ReadOutPanel):
     def original(self) -> Robot:
         """The arm that the edits of the present one began with."""
         robot = self._session.robot
+        if not is_own(robot):
+            return robot
         original = self._originals.setdefault(robot.name, robot)
         # A file may bring another arm under a known name: such an arm is its own original.
         if (original.joint_types, original.convention) != (robot.joint_types, robot.convention):

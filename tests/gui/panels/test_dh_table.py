@@ -256,6 +256,13 @@ def test_another_arm_under_a_known_name_is_its_own_original(panel, session_with)
     assert not panel.findChild(QPushButton, "original_robot_button").isEnabled()
 
 
+def test_an_arm_of_the_same_joints_under_a_known_name_is_its_own_original_too(panel):
+    other = panel._session.robot.with_joint(1, a=0.3)
+    panel._session.use_robot(other)
+    assert panel.original is other
+    assert not panel.model.is_edited(1, "a")
+
+
 def test_what_cannot_be_saved_or_opened_is_said_and_changes_nothing(panel, tmp_path):
     robot = panel._session.robot
     (tmp_path / "a file").write_text("no folder")
