@@ -60,7 +60,10 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("random", "&Robot", "Random pose", "Any pose within the limits", "Ctrl+R"),
     ActionSpec("plot", "&Robot", "Plot", "Draw the arm at the typed values", "Ctrl+Return"),
     ActionSpec("save_pose", "&Robot", "Save pose…", "Remember this pose under a name", "Ctrl+D"),
-    ActionSpec("live", "&Robot", "Live", "The arm follows each value at once", "Ctrl+Shift+L", True, before=True),
+    ActionSpec(
+        "drag_tool", "&Robot", "Drag the tool", "Arrows, squares and rings to drag the tool by", "G", True, before=True
+    ),
+    ActionSpec("live", "&Robot", "Live", "The arm follows each value at once", "Ctrl+Shift+L", True),
     ActionSpec("ignore_limits", "&Robot", "Ignore limits", "Let joints go beyond their limits", "Ctrl+I", True),
     ActionSpec("track_line", "&Path", "Track line", "Move the tool along the line", "Ctrl+L"),
     ActionSpec("track_trajectory", "&Path", "Track trajectory", "Move the tool along the trajectory", "Ctrl+T"),

@@ -10,8 +10,10 @@ from rvsim.experiment import Experiment
 from rvsim.files import find_user_folder
 from rvsim.gui.actions import make_actions
 from rvsim.gui.commands import Commands
+from rvsim.gui.gizmo_drag import GizmoDrag
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.dh_table import DHTablePanel
+from rvsim.gui.panels.inverse import InversePanel
 from rvsim.gui.panels.joints import JointsPanel
 from rvsim.gui.panels.matrices import MatricesPanel
 from rvsim.gui.panels.path import PathPanel
@@ -24,6 +26,8 @@ from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.scene_view import SceneView
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
+from rvsim.gui.target import TargetControl
+from rvsim.gui.target_scene import TargetScene
 from rvsim.gui.theme import set_role, wear_theme
 from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
@@ -49,7 +53,10 @@ class MainWindow(QMainWindow):
         self.motion = MotionControl(session, preferences, self)
         self.tracker = PathTracker(session, self.motion, self)
         self.scene_view = SceneView(renderer_factory(choice, session.warn))
+        self.target = TargetControl(session, preferences, self)  # before the stage: its ghosts are in the same picture
         self.stage = Stage(session, self.motion, preferences, self.scene_view, self)
+        self.target_scene = TargetScene(self.target, self.stage, preferences)
+        self.gizmo = GizmoDrag(self.target, self.scene_view, self.stage, preferences)
         self.tool_card = ToolCard(session, preferences, self.scene_view)
         self.player_bar = PlayerBar(self.motion, preferences)
         self.joints = JointsPanel(session, preferences)
@@ -84,6 +91,7 @@ class MainWindow(QMainWindow):
         arm = self._add_dock("arm_dock", "Arm", self.joints, left)
         docks = [
             self._add_dock("path_dock", "Path", PathPanel(*arguments, self.tracker), right),
+            self._add_dock("inverse_dock", "Inverse", self._make_inverse(), right),
             self._add_dock("tool_dock", "Tool", ToolPanel(*arguments), right),
             self._add_dock("matrices_dock", "Matrices", MatricesPanel(*arguments), right),
             self._add_dock("points_dock", "Points", PointsPanel(*arguments), right),
@@ -102,6 +110,11 @@ class MainWindow(QMainWindow):
         assert menu is not None
         menu.addSeparator()
         menu.addMenu(panels)
+
+    def _make_inverse(self) -> InversePanel:
+        panel = InversePanel(self.target, self.preferences)
+        panel.shown.connect(self.gizmo.switch)
+        return panel
 
     def _add_dock(self, object_name: str, title: str, panel: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = QDockWidget(title, self)
@@ -217,6 +230,7 @@ class MainWindow(QMainWindow):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember the layout; stop what moves."""
         self.motion.pause()
+        self.target.close()
         geometry, layout = self.window_layout()
         self.preferences.keep_window_state("geometry", geometry)
         self.preferences.keep_window_state("layout", layout)

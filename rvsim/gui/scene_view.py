@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QEasingCurve, QEvent, QPointF, QSize, Qt, QVariantAnimation, Signal
@@ -42,6 +43,30 @@ _ARROWS = {
 _ZOOM_KEYS = {Qt.Key.Key_Plus: 1.2, Qt.Key.Key_Equal: 1.2, Qt.Key.Key_Minus: 1 / 1.2}
 
 
+class Grabber(Protocol):
+    """Something in the scene that the hand may take hold of before the view moves."""
+
+    def hover(self, at: QPointF | None) -> None:
+        """The pointer is here with no button down, or has left."""
+        ...
+
+    def press(self, at: QPointF) -> bool:
+        """Whether there is something to take hold of."""
+        ...
+
+    def drag(self, at: QPointF, modifiers: Qt.KeyboardModifier) -> None:
+        """The pointer has moved while something is held."""
+        ...
+
+    def release(self) -> None:
+        """Let go."""
+        ...
+
+    def key(self, key: Qt.Key, modifiers: Qt.KeyboardModifier, repeated: bool) -> bool:
+        """Whether a key has been taken."""
+        ...
+
+
 class SceneView(QWidget):
     """Shows a scene; drag orbits, right drag or Shift + drag pans, the wheel zooms at the pointer.
 
@@ -61,6 +86,8 @@ class SceneView(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(160, 120)
         self.animated = True
+        self.grabber: Grabber | None = None
+        self._grabbing = False
         self._scene: Scene | None = None
         self._camera = Camera(np.zeros(3), 3.0)
         self._framed_bounds: np.ndarray | None = None
@@ -217,16 +244,21 @@ class SceneView(QWidget):
             self._frame_now()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Begins a drag."""
+        """Begins a drag: of what can be taken hold of there, else of the view."""
+        plain = event.button() == Qt.MouseButton.LeftButton and not self._choosing_box and self._pressed is None
+        self._grabbing = plain and self.grabber is not None and self.grabber.press(event.position())
+        if self._grabbing:
+            return
         self._pressed = self._last = event.position()
         self._panning = _pans(event)
         self._show_cursor()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Orbits, pans, or stretches the box."""
-        if self._pressed is None:
-            return
         at = event.position()
+        if self._pressed is None:
+            self._point(at, event.modifiers())
+            return
         step, self._last = at - self._last, at
         if self._choosing_box:
             self._box.stretch(self._pressed, at)
@@ -235,8 +267,23 @@ class SceneView(QWidget):
         else:
             self._move(self._camera.orbited(-_ORBIT * step.x(), _ORBIT * step.y()))
 
+    def _point(self, at: QPointF, modifiers: Qt.KeyboardModifier) -> None:
+        """No drag of the view: the pointer may hold something, or lie on it."""
+        if self.grabber is not None:
+            self.grabber.drag(at, modifiers) if self._grabbing else self.grabber.hover(at)
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """The pointer lies on nothing any more."""
+        super().leaveEvent(event)
+        if self.grabber is not None and not self._grabbing:
+            self.grabber.hover(None)
+
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Ends a drag; a drawn box fills the view."""
+        if self._grabbing and self.grabber is not None:
+            self._grabbing = False
+            self.grabber.release()
+            return
         pressed, self._pressed = self._pressed, None
         if pressed is not None and self._choosing_box:
             self._zoom_to_box(pressed, event.position())
@@ -279,8 +326,13 @@ class SceneView(QWidget):
         return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Arrows orbit, or pan with Shift; plus and minus zoom; F frames everything; Esc gives up the box."""
+        """Arrows orbit, or pan with Shift; plus and minus zoom; F frames everything; Esc gives up the box.
+
+        What can be taken hold of is asked first.
+        """
         key = Qt.Key(event.key())
+        if self.grabber is not None and self.grabber.key(key, event.modifiers(), event.isAutoRepeat()):
+            return
         if key in _ARROWS:
             self._step(_ARROWS[key], bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
         elif key in _ZOOM_KEYS:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QEasingCurve, QObject, QVariantAnimation
+from PySide6.QtCore import QEasingCurve, QObject, QTimer, QVariantAnimation
 
 from rvsim.experiment import Experiment
 from rvsim.gui.motion_control import MotionControl
@@ -42,6 +42,9 @@ class Stage(QObject):
         self._path: tuple[Item, ...] = ()
         self._trail = np.empty((0, 3))
         self._trail_times = np.empty(0)
+        self._layers: dict[str, tuple[Item, ...]] = {}
+        self._stale = QTimer(self, singleShot=True, interval=0)
+        self._stale.timeout.connect(lambda: self._show_at(self._shown_q))
         self._from_q: FloatArray = session.q
         self._shown_q: FloatArray = session.q
         self._glide = QVariantAnimation(self)
@@ -66,15 +69,23 @@ class Stage(QObject):
         self._glide.stop()
         self._show_at(self._session.q)
 
+    def set_layer(self, name: str, items: tuple[Item, ...]) -> None:
+        """Show these items beside the arm, instead of those of the same name before, from the next picture on."""
+        if items or self._layers.get(name):
+            self._layers[name] = items
+            self._stale.start()
+
     def _show_at(self, q: FloatArray) -> None:
         self._shown_q = q
+        self._stale.stop()
         options = SceneOptions(
             look=self._preferences["look"],
             frames=self._preferences["show_frames"],
             labels=self._preferences["show_labels"],
             floor=self._preferences["show_floor"],
         )
-        extras = (*self._path, *self._trail_now())
+        layers = (item for items in self._layers.values() for item in items)
+        extras = (*self._path, *self._trail_now(), *layers)
         scene = compose(self._session.robot, q, self.palette, options, extras)
         self._view.set_scene(replace(scene, bounds=self._with_path(scene.bounds)))
 

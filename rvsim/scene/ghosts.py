@@ -13,7 +13,7 @@ from rvsim.robot import Robot
 from rvsim.scene.build import Look, arm_items
 from rvsim.scene.palette import ScenePalette
 from rvsim.scene.points import frames
-from rvsim.scene.primitives import Color, Dots, Item, Label, Labels, Polyline
+from rvsim.scene.primitives import Color, Item, Label, Labels, Polyline, Segments
 from rvsim.scene.stick import Pose, link_polylines, posed
 
 FloatArray = NDArray[np.float64]
@@ -25,59 +25,64 @@ _OUTSIDE_WIDTH, _OUTSIDE_ALPHA = 2.6, 0.85
 
 
 class Ghost(NamedTuple):
-    """One pose: what it is called in scene and table, its joints (n,), whether it keeps the limits, and is lit."""
+    """One pose: its key, what is written beside it, its joints (n,), whether it keeps the limits, and is lit."""
 
-    name: str
+    key: str
+    title: str
     q: FloatArray
     within: bool
     lit: bool = False
 
 
 def ghost_items(robot: Robot, ghosts: Sequence[Ghost], palette: ScenePalette, look: Look = "stick") -> tuple[Item, ...]:
-    """All ghosts, keyed `ghost<name>…`, with their names; the lit one in the look of the arm and before the others."""
+    """All ghosts with their names; the lit one, keyed `ghost<key>…`, in the look of the arm and before the others.
+
+    The others share their items, one a joint and one for all that is dashed: eight arms are drawn like one.
+    """
     if not ghosts:
         return ()
     T = link_transforms(robot, np.stack([ghost.q for ghost in ghosts]))
     poses = [posed(robot, each) for each in T]
-    items: list[Item] = []
-    for ghost, pose in sorted(zip(ghosts, poses, strict=True), key=lambda pair: pair[0].lit):
-        items += _lit(robot, ghost, palette, look) if ghost.lit else _faint(ghost, pose, palette)
+    pairs = list(zip(ghosts, poses, strict=True))
+    items = [_outline(ghost, pose, palette) for ghost, pose in pairs if not ghost.within]
+    items += _links([pose for ghost, pose in pairs if ghost.within and not ghost.lit], palette)
+    for ghost in ghosts:
+        if ghost.lit:
+            key = f"{GHOST_KEY}{ghost.key}"
+            items += arm_items(robot, ghost.q, palette, look=look, labels=False, key=key, alpha=_LIT_ALPHA)
     return (*items, Labels(f"{GHOST_KEY}s.names", tuple(_names(ghosts, poses, palette))))
 
 
-def _lit(robot: Robot, ghost: Ghost, palette: ScenePalette, look: Look) -> list[Item]:
-    key = f"{GHOST_KEY}{ghost.name}"
-    items = list(arm_items(robot, ghost.q, palette, look=look, labels=False, key=key, alpha=_LIT_ALPHA))
-    return items if ghost.within else [*items, _outline(key, posed(robot, link_transforms(robot, ghost.q)), palette)]
-
-
-def _faint(ghost: Ghost, pose: Pose, palette: ScenePalette) -> list[Item]:
-    key = f"{GHOST_KEY}{ghost.name}"
-    if not ghost.within:
-        return [_outline(key, pose, palette)]
-    items: list[Item] = [
-        Polyline(f"{key}.link{index}", points, _link_color(pose.robot, joint, palette), _WIDTH)
-        for index, (joint, points) in enumerate(link_polylines(pose))
+def _links(poses: Sequence[Pose], palette: ScenePalette) -> list[Item]:
+    """The links of many poses, joint by joint, and their tools."""
+    pieces: dict[int, list[FloatArray]] = {}
+    for pose in poses:
+        tool = (pose.robot.dof, frames(pose.robot, pose.T)[-2:, :3, 3])
+        for joint, points in (*link_polylines(pose), tool):
+            pieces.setdefault(joint, []).append(np.repeat(points, 2, axis=0)[1:-1])
+    return [
+        Segments(f"{GHOST_KEY}s.link{joint}", np.concatenate(parts), _color(poses[0].robot, joint, palette), _WIDTH)
+        for joint, parts in pieces.items()
     ]
-    tip = frames(pose.robot, pose.T)[-2:, :3, 3]
-    if np.ptp(tip, axis=0).max() > 1e-9:
-        items.append(Polyline(f"{key}.tool", tip, palette.gripper.faded(_ALPHA), 0.6 * _WIDTH))
-    return [*items, Dots(f"{key}.joints", pose.joints, palette.ghost.faded(0.8), 6.0)]
 
 
-def _outline(key: str, pose: Pose, palette: ScenePalette) -> Item:
+def _outline(ghost: Ghost, pose: Pose, palette: ScenePalette) -> Item:
     points = np.concatenate([*(points for _, points in link_polylines(pose)), frames(pose.robot, pose.T)[-1:, :3, 3]])
-    return Polyline(f"{key}.outside", points, palette.ghost.faded(_OUTSIDE_ALPHA), _OUTSIDE_WIDTH, dashed=True)
+    return Polyline(
+        f"{GHOST_KEY}{ghost.key}.outside", points, palette.ghost.faded(_OUTSIDE_ALPHA), _OUTSIDE_WIDTH, dashed=True
+    )
 
 
-def _link_color(robot: Robot, joint: int, palette: ScenePalette) -> Color:
+def _color(robot: Robot, joint: int, palette: ScenePalette) -> Color:
+    if joint == robot.dof:
+        return palette.gripper.faded(_ALPHA)
     own = Color.from_hex(robot.joints[joint].color) if joint >= 0 else palette.stick
     return own.faded(_ALPHA)
 
 
 def _names(ghosts: Sequence[Ghost], poses: Sequence[Pose], palette: ScenePalette) -> list[Label]:
     """Each ghost's name where the ghost is farthest from the others; ghosts at one place share their names."""
-    near = 0.03 * poses[0].robot.size
+    near = 0.06 * poses[0].robot.size
     places: list[tuple[FloatArray, list[Ghost]]] = []
     for index, ghost in enumerate(ghosts):
         place = _own_place(index, poses)
@@ -92,7 +97,7 @@ def _names(ghosts: Sequence[Ghost], poses: Sequence[Pose], palette: ScenePalette
 def _name(place: FloatArray, ghosts: list[Ghost], palette: ScenePalette) -> Label:
     lit = any(ghost.lit for ghost in ghosts)
     color = palette.text if lit or any(ghost.within for ghost in ghosts) else palette.muted_text
-    return Label(place, " ".join(ghost.name for ghost in ghosts), color, (8.0, -8.0), 16.0 if lit else 13.0)
+    return Label(place, " ".join(ghost.title for ghost in ghosts), color, (8.0, -8.0), 16.0 if lit else 13.0)
 
 
 def _own_place(index: int, poses: Sequence[Pose]) -> FloatArray:

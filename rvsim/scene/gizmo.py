@@ -118,7 +118,8 @@ def _arrow(gizmo: Gizmo, handle: Handle, color: Color, lit: bool) -> list[Item]:
     items: list[Item] = [Polyline(key, _along(gizmo, handle, (_SHAFT, _HEAD)), color, 3.0 + 0.5 * wider)]
     for number, width in enumerate(_HEAD_WIDTHS):
         piece = _along(gizmo, handle, (ends[number], ends[number + 1]))
-        items.append(Polyline(f"{key}.head{number}", piece, color, width + wider))
+        # Not quite opaque: opaque thick lines are shaded like tubes, piece by piece.
+        items.append(Polyline(f"{key}.head{number}", piece, color.faded(0.99), width + wider))
     if not lit and color.alpha == 1.0:
         letter = Label(_along(gizmo, handle, (1.13, 1.13))[0], handle.name, color, (-3.5, 4.5), 12.0)
         items.append(Labels(f"{key}.letter", (letter,)))

@@ -1,0 +1,81 @@
+"""Branches in words: the limit one breaks, how far one is from its limits, and what is lost near a singularity."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import format_number, format_quantity, joint_kind
+from rvsim.kinematics import Branch, jacobian
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+_TOUCHES = 1e-9  # [rad, m] a limit is reached, not broken, up to here
+_NEAR_SINGULAR = 0.02  # of the tool's motion in sizes of the arm a radian of the joints
+
+
+def circled(name: str) -> str:
+    """A branch's number as it is written in scene and table: "3" as "③"; other names as they are."""
+    return chr(0x245F + int(name)) if name.isdigit() and 1 <= int(name) <= 20 else name
+
+
+def limit_words(robot: Robot, branch: Branch, preferences: Preferences, between: str = "; ") -> str:
+    """Which joints leave their limits: "elbow −156.7° stops at −110.0°"; nothing for a branch within them."""
+    broken = np.flatnonzero(branch.limit_margin < -_TOUCHES)
+    return between.join(_broken(robot, int(joint), float(branch.q[joint]), preferences) for joint in broken)
+
+
+def _broken(robot: Robot, joint: int, value: float, preferences: Preferences) -> str:
+    lower, upper = robot.limits[joint]
+    kind = joint_kind(robot, joint)
+    texts = [format_quantity(number, kind, preferences) for number in (value, lower if value < lower else upper)]
+    return f"{robot.joint_names[joint]} {texts[0]} stops at {texts[1]}"
+
+
+def worst_limit_words(robot: Robot, branch: Branch, preferences: Preferences) -> str:
+    """The limit that is broken most, short: "elbow stops at −110.0°"."""
+    joint = int(np.argmin(branch.limit_margin))
+    lower, upper = robot.limits[joint]
+    stop = format_quantity(lower if branch.q[joint] < lower else upper, joint_kind(robot, joint), preferences)
+    return f"{robot.joint_names[joint]} stops at {stop}"
+
+
+def margin_words(robot: Robot, branch: Branch, preferences: Preferences) -> str:
+    """How far the joint that is nearest to a limit is from it: "elbow 46.7° before its limit"."""
+    joint = int(np.argmin(branch.limit_margin))
+    margin = float(branch.limit_margin[joint])
+    if np.isinf(margin):
+        return "no joint has a limit"
+    return (
+        f"{robot.joint_names[joint]} {format_quantity(margin, joint_kind(robot, joint), preferences)} before its limit"
+    )
+
+
+def singular_words(robot: Robot, q: FloatArray) -> str:
+    """What the tool can hardly do at q (n,): a sentence near a singularity, else nothing.
+
+    The left singular vector of the least singular value of J is the motion that is lost; lengths count in sizes of
+    the arm. An arm of few joints has lost nothing by having few.
+    """
+    J = jacobian(robot, q)
+    J[:3] /= robot.size
+    left, sigma, _ = np.linalg.svd(J, full_matrices=False)
+    if sigma[-1] > _NEAR_SINGULAR:
+        return ""
+    shift, turn = left[:3, -1], left[3:, -1]
+    if np.linalg.norm(shift) >= np.linalg.norm(turn):
+        lost = f"move along {_direction(shift)}"
+    else:
+        lost = f"turn about {_direction(turn)}"
+    how = "cannot" if sigma[-1] < 1e-6 else "can hardly"
+    return f"{'Singular' if sigma[-1] < 1e-6 else 'Near a singularity'}: the tool {how} {lost}."
+
+
+def _direction(vector: FloatArray) -> str:
+    """A direction by the axis it lies on, else by its numbers."""
+    unit = vector / np.linalg.norm(vector)
+    axis = int(np.argmax(np.abs(unit)))
+    if abs(unit[axis]) > 0.995:
+        return "xyz"[axis]
+    unit = unit * np.sign(unit[axis])
+    return f"({', '.join(format_number(float(part), 2) for part in unit)})"

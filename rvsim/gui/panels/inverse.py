@@ -1,0 +1,284 @@
+"""The Inverse panel: the wanted pose, every branch that gives it, and why not where there is none."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QHideEvent, QShowEvent
+from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from rvsim.gui.branch_words import singular_words
+from rvsim.gui.panels.inverse_matrix import MatrixDialog
+from rvsim.gui.panels.inverse_order import OrderButton
+from rvsim.gui.panels.inverse_table import BranchModel, BranchTable, Row
+from rvsim.gui.panels.tool import NumberRow
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import display, format_quantity, format_scientific, length_kind
+from rvsim.gui.target import TargetControl, Wish
+from rvsim.gui.target_scene import PANEL
+from rvsim.gui.target_solution import CLOSED_FORM, SOLVER_TITLES, TASK_TITLES, Answer, NearestPose
+from rvsim.gui.theme import set_role
+from rvsim.gui.widgets import button, column_of, combo, form, scrolled, select
+from rvsim.robot.arrays import FloatArray
+from rvsim.spatial import rotation_from_rpy, rpy_from_rotation
+
+_AXES = ("x", "y", "z")
+_ANGLES = ("roll", "pitch", "yaw")
+_UNITS = ("angle_unit", "length_unit", "extra_decimals")
+
+
+class TargetSection(QWidget):
+    """The wanted pose in boxes, what of it counts, and who solves."""
+
+    def __init__(self, control: TargetControl, preferences: Preferences) -> None:
+        super().__init__()
+        self._control, self._preferences = control, preferences
+        self.position = NumberRow("target", _AXES, ("length",) * 3, preferences)
+        self.angles = NumberRow("target", _ANGLES, ("angle",) * 3, preferences)
+        for row, names in ((self.position, _AXES), (self.angles, _ANGLES)):
+            for box, name in zip(row.boxes, names, strict=True):
+                box.setAccessibleName(f"Target {name}")
+                box.quantity_changed.connect(partial(self._on_edited, name))
+                box.refused.connect(control.session.warn)
+                box.editingFinished.connect(control.session.end_stroke)
+        self.task = combo("ik_task_selector", "What of the pose counts")
+        self.task.activated.connect(lambda _: control.set_task(self.task.currentData()))
+        self.solver = combo("ik_solver_selector", "Who solves")
+        self.solver.activated.connect(lambda _: control.set_solver(self.solver.currentData()))
+        tip = "Read a 4 × 4 matrix, or 3 × 3 and a position, from the clipboard or from what you type"
+        self.paste = button("paste_matrix_button", "Paste matrix…", tip, self.ask_matrix)
+        self.at_tool = button(
+            "target_at_tool_button", "To the tool", "Take the tool's own pose", control.target_at_tool
+        )
+        self._lay_out()
+        self.show_offer()
+
+    def _lay_out(self) -> None:
+        rows = form()
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.addRow("Wanted", self.task)
+        rows.addRow("Solver", self.solver)
+        tools = QHBoxLayout()
+        tools.setSpacing(6)
+        title = QLabel("Target")
+        set_role(title, role="title")
+        tools.addWidget(title, 1)
+        tools.addWidget(self.paste)
+        tools.addWidget(self.at_tool)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(6)
+        column.addLayout(rows)
+        column.addLayout(tools)
+        column.addWidget(self.position)
+        column.addWidget(self.angles)
+
+    def show_offer(self) -> None:
+        """What this arm offers."""
+        control, offer = self._control, self._control.offer
+        for box, titles, names, chosen in (
+            (self.task, TASK_TITLES, offer.tasks, control.task),
+            (self.solver, SOLVER_TITLES, offer.solvers, control.solver),
+        ):
+            with QSignalBlocker(box):
+                box.clear()
+                for name in names:
+                    box.addItem(titles.get(name, name), name)
+            select(box, chosen)
+        self.solver.setToolTip(offer.no_closed_form or "A closed form gives every branch; the others iterate to one")
+        kind = length_kind(control.session.robot)
+        for number in self.position.boxes:
+            number.set_kind(kind)
+
+    def show_target(self, T: FloatArray) -> None:
+        """Show a target (4, 4)."""
+        self.position.show_values(T[:3, 3])
+        self.angles.show_values(rpy_from_rotation(T[:3, :3]))
+
+    def _on_edited(self, name: str, _value: float) -> None:
+        T = np.eye(4)
+        T[:3, 3] = [box.quantity for box in self.position.boxes]
+        T[:3, :3] = self._control.T[:3, :3]
+        if name in _ANGLES:
+            T[:3, :3] = rotation_from_rpy([box.quantity for box in self.angles.boxes])
+        self._control.set_target(Wish(T, f"Target {name}", f"target {name}"))
+
+    def ask_matrix(self) -> None:
+        """Ask for a matrix."""
+        shown = display(length_kind(self._control.session.robot), self._preferences)
+        dialog = MatrixDialog(self._control.T, shown.factor, shown.suffix.strip(), self)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.taken.connect(lambda T: self._control.set_target(Wish(T, "Paste a target", "")))
+        dialog.open()
+
+
+class WhyNot(QFrame):
+    """One sentence that says why the arm cannot, and the nearest pose that it can."""
+
+    def __init__(self, control: TargetControl, preferences: Preferences) -> None:
+        super().__init__()
+        self._control, self._preferences = control, preferences
+        self.setObjectName("why_not")
+        self.sentence = QLabel(wordWrap=True)
+        self.sentence.setObjectName("why_not_sentence")
+        self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
+        self.left = QLabel(wordWrap=True)
+        self.left.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        set_role(self.left, role="muted")
+        tip = "Go to the nearest pose within the limits, and make it the target"
+        self.accept = button("accept_nearest_button", "Accept nearest", tip, control.accept_nearest)
+        row = QHBoxLayout()
+        row.addWidget(self.left, 1)
+        row.addWidget(self.accept)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 2, 0, 2)
+        column.setSpacing(6)
+        column.addWidget(self.sentence)
+        column.addLayout(row)
+
+    def show_answer(self, answer: Answer) -> None:
+        """Why not; or what to know although it can."""
+        control, nearest = self._control, self._control.nearest
+        singular = "" if answer.missed else singular_words(answer.question.robot, control.session.q)
+        text = control.sentence or singular
+        self.sentence.setText(text)
+        set_role(self.sentence, level="error" if answer.missed else "warning")
+        self.setVisible(bool(text))
+        self.accept.setVisible(answer.missed)
+        self.accept.setEnabled(nearest is not None)
+        self.left.setVisible(answer.missed)
+        self.left.setText(self._left(nearest) if nearest is not None else "Looking for the nearest pose…")
+
+    def _left(self, nearest: NearestPose) -> str:
+        place = format_quantity(nearest.position_error, length_kind(self._control.session.robot), self._preferences)
+        turn = format_quantity(nearest.rotation_error, "angle", self._preferences)
+        return f"Nearest: {place} away, turned by {turn}."
+
+
+class InversePanel(QWidget):
+    """Target, branches, why not. `shown(on)` tells that the panel has come or gone."""
+
+    shown = Signal(bool)
+
+    def __init__(self, control: TargetControl, preferences: Preferences, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("inverse_panel")
+        self._control, self._preferences = control, preferences
+        self.target = TargetSection(control, preferences)
+        self.why_not = WhyNot(control, preferences)
+        self.model = BranchModel(control.session.robot, preferences, self)
+        self.table = BranchTable(self.model)
+        self.detail = QLabel(wordWrap=True)
+        self.detail.setObjectName("branch_detail")
+        self.order = OrderButton(control.order)
+        tip = "Go to the best branch, by the order below"
+        self.solve = button("solve_button", "Solve", tip, control.solve_now, primary=True)
+        self.follow = self._switch(
+            "arm_follows", "Arm follows", "The arm follows each change at once; off: press Solve"
+        )
+        self.ghosts = self._switch(
+            "all_ghosts", "All ghosts", "Every branch as a ghost; off: the one under the pointer"
+        )
+        self._lay_out()
+        self._connect()
+
+    def _switch(self, preference: str, text: str, tip: str) -> QCheckBox:
+        box = QCheckBox(text)
+        box.setObjectName(f"{preference}_switch")
+        box.setToolTip(tip)
+        box.setChecked(self._preferences[preference])
+        box.toggled.connect(lambda on: self._preferences.set(preference, on))
+        return box
+
+    def _lay_out(self) -> None:
+        buttons = QHBoxLayout()
+        buttons.setSpacing(12)
+        buttons.addWidget(self.solve)
+        buttons.addWidget(self.follow)
+        buttons.addWidget(self.ghosts)
+        buttons.addStretch(1)
+        self.table.setMinimumHeight(120)
+        self.detail.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.detail.setAlignment(Qt.AlignmentFlag.AlignTop)
+        set_role(self.detail, role="muted")
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(12, 8, 12, 8)
+        column.setSpacing(6)
+        column.addWidget(self.target)
+        column.addLayout(buttons)
+        column.addWidget(self.why_not)
+        column.addWidget(self.table, 1)
+        column.addWidget(self.detail)
+        column.addWidget(self.order)
+        column_of(self, scrolled(inside))
+
+    def _connect(self) -> None:
+        control = self._control
+        control.changed.connect(self._show)
+        control.lit_changed.connect(self._show_detail)
+        control.offer_changed.connect(self._show_robot)
+        self.table.lit.connect(control.light)
+        self.table.chosen.connect(lambda row: control.go_to(row.branch))
+        self.order.order_changed.connect(lambda order: self._preferences.set("branch_order", ", ".join(order)))
+        self._preferences.changed.connect(self._on_preference)
+        self._show_robot()
+
+    # --- showing ---------------------------------------------------------------------------------------------------
+
+    def _show_robot(self) -> None:
+        self.target.show_offer()
+        self.model.show_robot(self._control.session.robot)
+
+    def _show(self) -> None:
+        answer = self._control.answer
+        if answer is None or not self.isVisible():
+            return
+        self.target.show_target(self._control.T)
+        self.model.show_rows(self._rows(answer))
+        self.why_not.show_answer(answer)
+        self._show_detail()
+
+    def _rows(self, answer: Answer) -> tuple[Row, ...]:
+        usable = set(map(id, answer.usable))
+        note = _numeric_note(answer)
+        return tuple(
+            Row(self._control.name_of(branch), branch, id(branch) in usable, note) for branch in answer.branches
+        )
+
+    def _show_detail(self) -> None:
+        self.detail.setText(self.model.words_of(self._control.lit))
+
+    def _on_preference(self, name: str) -> None:
+        for preference, switch in (("arm_follows", self.follow), ("all_ghosts", self.ghosts)):
+            if name == preference:
+                switch.setChecked(self._preferences[preference])
+        if name in _UNITS:
+            self._show_robot()
+            self._show()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Somebody watches: solve."""
+        super().showEvent(event)
+        self._control.watch(PANEL, True)
+        self.shown.emit(True)
+        self._show()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Nobody watches any more."""
+        super().hideEvent(event)
+        self._control.light(None)
+        self._control.watch(PANEL, False)
+        self.shown.emit(False)
+
+
+def _numeric_note(answer: Answer) -> str:
+    """How the numeric solver came to its row."""
+    found = answer.numeric
+    if answer.question.solver == CLOSED_FORM or found is None:
+        return ""
+    errors = f"{format_scientific(found.position_error)} m, {format_scientific(found.rotation_error)} rad"
+    return f"{found.iterations} iterations, {found.elapsed * 1e3:.1f} ms, errors {errors}. {found.reason}"

@@ -1,0 +1,216 @@
+"""What a wanted tool pose means for the joints: every branch, which one the arm follows, or why it cannot. No Qt."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rvsim.errors import NoClosedFormError
+from rvsim.experiment import limit_violations
+from rvsim.kinematics import (
+    SOLVERS,
+    Branch,
+    Failure,
+    NumericResult,
+    forward_kinematics,
+    inverse_kinematics,
+    inverse_tasks,
+    jacobian,
+    limit_margins,
+    solve_numeric,
+)
+from rvsim.kinematics.inverse.nearest import nearest_configuration
+from rvsim.kinematics.inverse.result import in_order
+from rvsim.motion.continuity import continuous
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.spatial import pose_difference
+
+CLOSED_FORM = "closed"
+SOLVER_TITLES = {
+    CLOSED_FORM: "Closed form, all branches",
+    "newton": "Newton–Raphson",
+    "dls": "Damped least squares",
+    "lm": "Levenberg–Marquardt",
+    "bfgs": "BFGS, gradient projection",
+}
+TASK_TITLES = {
+    "pose": "Full pose",
+    "position+pitch+roll": "Position, pitch and roll: keep the cup level",
+    "position+yaw": "Position and yaw",
+    "position": "Position only",
+    "x,y": "Position in the plane, x and y",
+}
+_PLACES = ("position", "x,y")  # tasks that leave the whole orientation open
+_HERE = 1e-9  # [rad, m] a branch so close is where the arm is
+
+
+class Offer(NamedTuple):
+    """What can be asked of an arm: the tasks with a closed form, its own first, or why there is none."""
+
+    tasks: tuple[str, ...]
+    no_closed_form: str = ""
+
+    @property
+    def solvers(self) -> tuple[str, ...]:
+        """The solvers that can be chosen, the first one by default."""
+        return ("lm", *(name for name in SOLVERS if name != "lm")) if self.no_closed_form else tuple(SOLVER_TITLES)
+
+
+def offer_of(robot: Robot) -> Offer:
+    """What can be asked of this arm."""
+    try:
+        return Offer(inverse_tasks(robot))
+    except NoClosedFormError as problem:
+        return Offer(("pose", "position") if robot.dof >= 6 else ("position", "pose"), str(problem))
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """A wanted pose T (4, 4), what of it counts, how to solve it, and where the arm is: q (n,) [rad, m]."""
+
+    robot: Robot
+    T: FloatArray
+    task: str
+    solver: str
+    q: FloatArray
+    order: tuple[str, ...]
+    ignore_limits: bool = False
+
+    @property
+    def place_only(self) -> bool:
+        """Whether the orientation is left open."""
+        return self.task in _PLACES
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """All branches, best first, or the one row of a numeric solver; `failure` or `numeric` say why none will do."""
+
+    question: Question
+    branches: tuple[Branch, ...]
+    failure: Failure | None = None
+    numeric: NumericResult | None = None
+
+    @property
+    def usable(self) -> tuple[Branch, ...]:
+        """The branches the arm may go to, best first."""
+        if self.numeric is not None and not self.numeric.converged:
+            return ()
+        return tuple(branch for branch in self.branches if branch.within_limits or self.question.ignore_limits)
+
+    @property
+    def missed(self) -> bool:
+        """Whether the arm cannot do what is asked."""
+        return not self.usable
+
+
+def solve(question: Question) -> Answer:
+    """Every branch for the question, or what the numeric solver finds from where the arm is."""
+    if question.solver != CLOSED_FORM:
+        return _solve_numeric(question)
+    result = inverse_kinematics(question.robot, question.T, task=question.task, near=question.q, order=question.order)
+    return Answer(question, result.branches, result.failure)
+
+
+def _solve_numeric(question: Question) -> Answer:
+    robot = question.robot
+    task = "position" if question.place_only else "pose"
+    found = solve_numeric(robot, question.T, question.q, question.solver, task=task)
+    margin = limit_margins(robot, found.q)
+    entries = np.s_[:3, 3:] if question.place_only else np.s_[:3, :]
+    sigma = np.linalg.svd(jacobian(robot, found.q), compute_uv=False)
+    branch = Branch(
+        q=found.q,
+        label=SOLVER_TITLES[question.solver],
+        within_limits=bool((margin >= -_HERE).all()),
+        limit_margin=margin,
+        residual=float(np.abs(forward_kinematics(robot, found.q) - question.T)[entries].max()),
+        manipulability=float(sigma.prod()),
+        distance=float(np.abs(found.q - question.q).max()),
+        continuum=False,
+    )
+    return Answer(question, (branch,), None, found)
+
+
+class Step(NamedTuple):
+    """Where the arm goes: the branch, and whether it had to leave its own."""
+
+    branch: Branch
+    changed_branch: bool
+
+
+def followed(answer: Answer) -> Step | None:
+    """The branch that the arm follows: its own as long as it goes on, else the nearest; None if there is none."""
+    nearest = sorted(answer.usable, key=lambda branch: branch.distance)
+    if not nearest:
+        return None
+    if nearest[0].distance < _HERE or _go_on(answer.question, nearest[:1])[0]:
+        return Step(nearest[0], False)
+    others = zip(nearest[1:], _go_on(answer.question, nearest[1:]), strict=True)
+    return next((Step(branch, False) for branch, goes_on in others if goes_on), Step(nearest[0], True))
+
+
+def _go_on(question: Question, branches: Sequence[Branch]) -> NDArray[np.bool_]:
+    """(b,) whether the arm can go there without changing its branch."""
+    ends = np.array([branch.q for branch in branches]).reshape(-1, question.robot.dof)
+    return continuous(question.robot, np.tile(question.q, (len(ends), 1)), ends, not question.place_only)
+
+
+def seen_from(answer: Answer, q: FloatArray) -> Answer:
+    """The same answer with the arm at q (n,): other distances, maybe another order."""
+    moved = [replace(branch, distance=float(np.abs(branch.q - q).max())) for branch in answer.branches]
+    branches = in_order(moved, answer.question.order)
+    return replace(answer, question=replace(answer.question, q=q), branches=branches)
+
+
+def branch_at(answer: Answer, q: FloatArray) -> Branch | None:
+    """The branch on which the arm stands."""
+    here = [branch for branch in answer.branches if float(np.abs(branch.q - q).max()) < 1e-6]
+    return here[0] if here else None
+
+
+class NearestPose(NamedTuple):
+    """The best the arm can do within its limits: joints (n,), the pose (4, 4) they give, and the whole sentence."""
+
+    q: FloatArray
+    T: FloatArray
+    sentence: str
+    position_error: float
+    rotation_error: float
+
+
+def nearest_pose(answer: Answer) -> NearestPose:
+    """The nearest pose for a target that cannot be had. It takes 20 to 100 ms: not for the window's own thread."""
+    question, failure = answer.question, answer.failure
+    robot = question.robot
+    limits = np.tile([-np.inf, np.inf], (robot.dof, 1)) if question.ignore_limits else robot.limits
+    sentence = failure.reason if failure is not None else immediate_sentence(answer)
+    q = None if failure is None else failure.nearest.q
+    if q is None or (not question.ignore_limits and limit_violations(robot, q)):
+        starts = np.array([question.q, *(branch.q for branch in answer.branches)])
+        q = nearest_configuration(robot, question.T, question.q, limits, starts, place_only=question.place_only).q
+    T = forward_kinematics(robot, q)
+    left = pose_difference(T, question.T)
+    return NearestPose(q, T, sentence, float(left.position), float(left.angle))
+
+
+_AT_ONCE = {
+    "reach": "The place is out of reach.",
+    "orientation": "The place can be reached, but not in this orientation.",
+}
+
+
+def immediate_sentence(answer: Answer) -> str:
+    """Why not, as far as it is known without looking for the nearest pose; nothing where the arm can."""
+    if not answer.missed:
+        return ""
+    if answer.numeric is not None:
+        return answer.numeric.reason
+    failure = answer.failure
+    assert failure is not None, "no branch that can be used, and no reason"
+    return failure.reason if failure.kind == "limits" else _AT_ONCE[failure.kind]
