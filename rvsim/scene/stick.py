@@ -72,9 +72,10 @@ def _joint_color(robot: Robot, joint: int, palette: ScenePalette) -> Color:
 
 def _shadow(pose: Pose, palette: ScenePalette, key: str, alpha: float, width: float) -> list[Item]:
     """What a light right above would throw on the floor; it tells how high the arm is."""
-    if alpha < 1.0:
+    pieces = [points for _, points in link_polylines(pose)]
+    if alpha < 1.0 or not pieces:  # all of a Cartesian arm lies in one point at q = 0
         return []
-    points = np.concatenate([points for _, points in link_polylines(pose)])
+    points = np.concatenate(pieces)
     points[:, 2] = 1e-4 * pose.robot.size
     return [Polyline(f"{FLOOR_KEY}.{key}.shadow", points, palette.shadow, 0.8 * width)]
 

@@ -60,6 +60,12 @@ def test_keys_are_unique_and_items_are_finite(robot: Robot, look: Look) -> None:
             assert np.isfinite(item.points).all()
 
 
+@pytest.mark.parametrize("look", LOOKS)
+def test_every_arm_can_be_seen_at_zero_even_one_that_shrinks_to_a_point(robot: Robot, look: Look) -> None:
+    scene = compose(robot, np.zeros(robot.dof), LIGHT, SceneOptions(look=look, frames=True))
+    assert np.isfinite(scene.bounds).all()
+
+
 def test_every_joint_has_its_dot_in_its_colour(robot: Robot) -> None:
     items = _by_key(arm_items(robot, robot.home, LIGHT))
     for index, joint in enumerate(robot.joints):
