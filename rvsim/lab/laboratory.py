@@ -1,0 +1,227 @@
+"""The IK laboratory: all numeric solvers on the same target, from the same start, with the same settings."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from rvsim.experiment import limit_violations
+from rvsim.kinematics import forward_kinematics
+from rvsim.kinematics.numeric import (
+    AS_IN_SOURCE_000,
+    AS_IN_SOURCE_002,
+    SOLVERS,
+    NumericResult,
+    Preset,
+    Solver,
+    SolverOptions,
+    Task,
+    solve_numeric,
+)
+from rvsim.lab.sentences import MINUS, joint_amount, length_error
+from rvsim.lab.source_002 import Comparison
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.units import degrees_from_radians
+
+TITLES: dict[Solver, str] = {
+    "newton": "Newton–Raphson",
+    "dls": "Damped least squares",
+    "lm": "Levenberg–Marquardt",
+    "bfgs": "BFGS gradient projection",
+}
+EXACT = Preset(
+    "Exact, one try",
+    "Until a millionth of a metre and of a radian, within the limits, and without random restarts: what each solver "
+    "makes of this one start.",
+    "lm",
+    "pose",
+    SolverOptions(allow_random_restarts=False),
+    None,
+    False,
+)
+PRESETS = (EXACT, AS_IN_SOURCE_000, AS_IN_SOURCE_002)
+
+_SAME = 1e-2  # [rad, m] configurations nearer than this are the same solution
+# [s] by which the clock leaps when a contest is cancelled: the solver at work finds its time used up.
+_LEAP = 1e9
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """What all solvers are asked: an arm, a target T (4, 4), a start q0 (n,) [rad, m], the task and the settings."""
+
+    robot: Robot
+    T: FloatArray
+    q0: FloatArray
+    task: Task = "pose"
+    options: SolverOptions = EXACT.options
+
+
+class Outcome(NamedTuple):
+    """What one solver made of a trial."""
+
+    solver: Solver
+    result: NumericResult
+
+    @property
+    def title(self) -> str:
+        """The solver's name in full."""
+        return TITLES[self.solver]
+
+
+@dataclass(frozen=True, eq=False)
+class Contest:
+    """A trial and what came of it, one outcome a solver in the order of `SOLVERS`."""
+
+    trial: Trial
+    outcomes: tuple[Outcome, ...]
+
+    @property
+    def converged(self) -> tuple[Outcome, ...]:
+        """Those that reached the target."""
+        return tuple(outcome for outcome in self.outcomes if outcome.result.converged)
+
+    @property
+    def best(self) -> Outcome:
+        """The one with the fewest iterations among those that reached the target; if none did, the nearest."""
+        if self.converged:
+            return min(self.converged, key=lambda outcome: outcome.result.iterations)
+        return min(self.outcomes, key=lambda outcome: outcome.result.position_error + outcome.result.rotation_error)
+
+
+def run_contest(trial: Trial, cancelled: Callable[[], bool] = lambda: False) -> Contest | None:
+    """Let all solvers do the trial; None as soon as `cancelled()` is true.
+
+    A first iteration that nobody sees makes what is prepared once an arm, so that the first solver does not pay for it.
+
+    Raises:
+        ShapeError, PoseError, SettingError: the trial makes no sense, as `solve_numeric` says.
+    """
+    _solved(replace(trial, options=replace(trial.options, max_iterations=1)), "lm", time.perf_counter)
+
+    def clock() -> float:
+        return time.perf_counter() + (_LEAP if cancelled() else 0.0)
+
+    outcomes: list[Outcome] = []
+    for solver in SOLVERS:
+        outcomes.append(Outcome(solver, _solved(trial, solver, clock)))
+        if cancelled():
+            return None
+    return Contest(trial, tuple(outcomes))
+
+
+def _solved(trial: Trial, solver: Solver, clock: Callable[[], float]) -> NumericResult:
+    return solve_numeric(trial.robot, trial.T, trial.q0, solver, task=trial.task, options=trial.options, clock=clock)
+
+
+def target_of(robot: Robot, q: FloatArray) -> FloatArray:
+    """(4, 4) a pose that the arm can take: its own at q (n,)."""
+    return np.asarray(forward_kinematics(robot, q))
+
+
+# --- in words ----------------------------------------------------------------------------------------------------
+
+
+def verdict(trial: Trial, outcome: Outcome) -> str:
+    """What one solver did, and why it ended."""
+    result = outcome.result
+    end = f"ends after {_count(result.iterations, 'iteration')}"
+    left = "" if result.converged else f" {_missing(trial, result)} left."
+    return f"{outcome.title} {end}. {result.reason}{left}{_curve_note(result)}{_limit_note(trial, result)}"
+
+
+def contest_sentence(contest: Contest) -> str:
+    """Who reached the target, who needed least, and whether they came to the same joints."""
+    done, count = contest.converged, len(contest.outcomes)
+    if not done:
+        nearest = contest.best
+        missing = _missing(contest.trial, nearest.result)
+        return f"None of the {count} reaches the target. Nearest: {nearest.title}, {missing} left."
+    if len(done) == 1:
+        return f"Only {done[0].title} reaches the target, in {_count(done[0].result.iterations, 'iteration')}."
+    who = f"All {count} reach" if len(done) == count else f"{len(done)} of {count} reach"
+    best = contest.best
+    fewest = f"{best.title} needs the fewest iterations ({best.result.iterations})"
+    return f"{who} the target. {fewest}. {_solutions_clause(contest)}"
+
+
+def _solutions_clause(contest: Contest) -> str:
+    groups = same_solutions(contest)
+    if len(groups) == 1:
+        return "They come to the same joints."
+    return f"They come to {len(groups)} different solutions: {'; '.join(map(_together, groups))}."
+
+
+def _together(group: Sequence[Outcome]) -> str:
+    return " and ".join(outcome.title for outcome in group)
+
+
+def same_solutions(contest: Contest) -> tuple[tuple[Outcome, ...], ...]:
+    """The outcomes that converged, those with the same joints (whole turns apart) together."""
+    groups: list[list[Outcome]] = []
+    turning = contest.trial.robot.is_revolute
+    for outcome in contest.converged:
+        for group in groups:
+            apart = outcome.result.q - group[0].result.q
+            apart = np.where(turning, np.remainder(apart + np.pi, 2.0 * np.pi) - np.pi, apart)
+            if np.abs(apart).max() < _SAME:
+                group.append(outcome)
+                break
+        else:
+            groups.append([outcome])
+    return tuple(map(tuple, groups))
+
+
+def _missing(trial: Trial, result: NumericResult) -> str:
+    place = length_error(trial.robot, result.position_error)
+    if trial.task == "position":
+        return place
+    return f"{place} and {degrees_from_radians(result.rotation_error):.1e}°".replace("-", MINUS)
+
+
+def _curve_note(result: NumericResult) -> str:
+    if not result.restarts:
+        return ""
+    which = "last" if result.converged else "best"
+    needed = f" It took {_count(result.restarts, 'random restart')}." if result.converged else ""
+    return f"{needed} The curve shows the {which} try alone."
+
+
+def _limit_note(trial: Trial, result: NumericResult) -> str:
+    violations = limit_violations(trial.robot, result.q)
+    if trial.options.enforce_joint_limits or not violations:
+        return ""
+    first = violations[0]
+    name = trial.robot.joint_names[first.joint]
+    return f" Outside the limits: {name} at {joint_amount(trial.robot, name, float(result.q[first.joint]))}."
+
+
+def source_002_sentence(comparison: Comparison) -> str:
+    """What the misprints of source 002 cost, and what the program believes meanwhile."""
+    printed, corrected = comparison
+    least, most = printed.deviations.min(), printed.deviations.max()
+    believed = printed.believed_deviations.max()
+    return (
+        f"As printed, the real UR5e is {printed.rms:.0f} mm RMS away from the ellipse ({least:.0f} to {most:.0f} mm), "
+        f"while the program believes itself within {believed:.1f} mm. "
+        f"Corrected: {corrected.rms:.0e} mm RMS, which is rounding alone."
+    ).replace("e-", f"e{MINUS}")
+
+
+SOURCE_002_READING = (
+    "With the misprints read as they stand in code 2: a2 and a3 positive (the table of the same source has them "
+    "negative), d6 without sin θ5 in x and missing in y, and terms lost in the Jacobian. Its fourth column cannot be "
+    "read in the published copy; it is taken as the third without a3. Degrees become radians by 0.0175, 0.01744 and "
+    "0.01745 in turn. How far the arm is off exactly is an accident of the start: with the wrong Jacobian the first "
+    "point takes a long way, and a ten thousandth of a degree elsewhere ends some hundred millimetres off as well, at "
+    "other angles."
+)
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'s' * (number != 1)}"
