@@ -2,7 +2,7 @@ r"""Formulas set as in a book: LaTeX becomes a painter path that is sharp at eve
 
 Setting a formula takes 10 to 20 ms, too long for numbers that change with every step of a drag. All digits are equally
 wide, though, so a formula is set once for its shape, and other digits are put in their places: that takes 0.1 ms.
-In a matrix `{-}` and `\phantom{-}`, `\phantom{0}` are places too, which may stay empty.
+In a matrix `{-}` and `\phantom{-}`, `\phantom{0}` are places too, which may stay empty; a minus closes up.
 """
 
 from __future__ import annotations
@@ -18,11 +18,13 @@ from xml.etree import ElementTree
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QPainterPath, QTransform
 
-_SIZE = 16.0  # the font size formulas are set at; they are scaled from there
+SIZE = 16.0  # the font size formulas are set at; they are scaled from there
+_DIGIT = 7.92  # how wide every digit is at that size
 _KEPT = 1500  # formulas and shapes that are remembered
 
 _PLACE = re.compile(r"\\phantom\{-\}|\{-\}|\\phantom\{0\}|\d+\.\d+")
 _SIGN = re.compile(r"\\[a-zA-Z]+|\d|-")
+_UNARY = re.compile(r"(^|[(=,{&] *|\\, *|\\equiv *)-")
 _SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -72,7 +74,7 @@ def plain_text(latex: str) -> str:
     text = re.sub(r"_\{?(\d+)\}?", lambda m: "".join(_SUBSCRIPTS[int(d)] for d in m[1]), text)
     text = re.sub(r"\\([a-zA-Z]+|,) ?", lambda m: _WORDS.get(m[1], m[1] + " "), text)
     text = text.replace("{", "").replace("}", "").replace("_", "").replace("-", "\u2212")
-    return re.sub(r"\s+", " ", text).strip()
+    return re.sub(r"\s+", " ", text.replace("=", " = ")).strip()
 
 
 _PLAIN_FRACTION = re.compile(r"\\frac\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}")
@@ -118,11 +120,18 @@ def _filled(shape: str, signs: str) -> Typeset | None:
     for outline, at, place in layout.glyphs:
         sign = signs[place] if place >= 0 else ""
         if sign != " ":
-            path.addPath(at.map(_outline(sign) if sign.isdigit() else outline))
+            glyph = at.map(_outline(sign) if sign.isdigit() else outline)
+            path.addPath(glyph.translated(_gap(signs, place), 0.0) if sign == "-" else glyph)
     for rule in layout.rules:
         path.addRect(rule)
     box = layout.box
     return Typeset(path, box.right(), -box.top(), box.bottom())
+
+
+def _gap(signs: str, place: int) -> float:
+    """How far a minus moves to the right over empty places, to stand close to its number."""
+    behind = signs[place + 1 :]
+    return _DIGIT * (len(behind) - len(behind.lstrip(" ")))
 
 
 @lru_cache(maxsize=_KEPT)
@@ -140,7 +149,12 @@ def _svg(latex: str) -> ElementTree.Element:
         warnings.simplefilter("ignore")  # of the library's own import of a font, on some Pythons
         from ziamath.zmath import Latex
 
-        return ElementTree.fromstring(Latex(latex, size=_SIZE).svg())
+        return ElementTree.fromstring(Latex(_as_understood(latex), size=SIZE).svg())
+
+
+def _as_understood(latex: str) -> str:
+    """Two things TeX knows and the library does not: a minus that is a sign stands close, a named function upright."""
+    return _UNARY.sub(r"\1{-}", latex).replace("\\operatorname{", "\\mathrm{")
 
 
 def _digits_and_signs(shape: str) -> Iterator[tuple[str, int]]:

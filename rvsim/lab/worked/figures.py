@@ -107,4 +107,4 @@ def _fixed(value: float, decimals: int) -> str:
 def _padded(cell: str, width: int) -> str:
     digits = cell.lstrip("-")
     sign = "{-}" if digits != cell else "\\phantom{-}"
-    return "\\phantom{0}" * (width - len(digits)) + sign + digits
+    return sign + "\\phantom{0}" * (width - len(digits)) + digits

@@ -56,8 +56,8 @@ _LEANS = (
     "This arm cannot turn it sideways."
 )
 _WAIST = (
-    "The tool axis a stays in the vertical plane through the base axis and the tip. The arm faces the tip, "
-    "or is turned away from it."
+    "The tool axis a must lie in the vertical plane through the base axis and the tip: a⊥, its part across it, "
+    "must be 0. The arm faces the tip, or is turned away from it."
 )
 _BY_TOOL = "The tip is on the base axis (x = y = 0), so the tool axis tells the plane; the arm may face either way."
 _ANY = (
@@ -79,7 +79,7 @@ def _azimuth(
             Quantity("\\cos\\psi", math.cos(psi.value), "number"),
         )
         leaning = book.figures.equation(side, "<ax,>*<s>-<ay>*<c>", ax=ax, ay=ay, s=s, c=c)
-        return (azimuth, leaning), _WAIST + " It does so if its part across the plane is 0."
+        return (azimuth, leaning), _WAIST
     if math.hypot(ax.value, ay.value) <= 1e-10:
         return (), _ANY.format(book.figures.text(psi.value, "angle"))
     same = math.cos(psi.value) * ax.value + math.sin(psi.value) * ay.value > 0.0

@@ -15,6 +15,7 @@ _MATHEMATICS = {
     "\u2212": "-",
     "±": "\\pm",
     "ᵀ": "^T",
+    "⊥": "_\\perp",
     **{sign: f"_{digit}" for digit, sign in enumerate("₀₁₂₃₄₅₆₇₈₉")},
     **{sign: f"^{power}" for sign, power in zip("¹²³", "123", strict=True)},
     **{sign: f"\\{name}" for sign, name in _GREEK.items()},
@@ -47,7 +48,9 @@ def _step(number: int, step: Step) -> str:
 
 
 def _equation(equation: Equation) -> str:
-    rights = [part for part in (equation.formula, equation.substituted, equation.result) if part]
+    rights = [
+        part.replace("\\phantom{0}", "") for part in (equation.formula, equation.substituted, equation.result) if part
+    ]
     return equation.left + " &= " + " \\\\\n &= ".join(rights)
 
 

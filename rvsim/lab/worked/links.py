@@ -10,7 +10,7 @@ import numpy as np
 
 from rvsim.kinematics.inverse.elbow import elbow_up, solve_elbow
 from rvsim.kinematics.inverse.words import ELBOW
-from rvsim.lab.worked.figures import Quantity
+from rvsim.lab.worked.figures import Quantity, wrapped
 from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.values import Path
 
@@ -59,7 +59,8 @@ def write_links(book: Notebook, path: Path, u: Quantity, w: Quantity, links: Lin
     leaning = lift.value if lift else 0.0
     direction, lean = float(elbow.direction[0]), float(elbow.lean[0])
     return tuple(
-        Fold((*path, names[sign]), direction - sign * lean, sign * bend - leaning, sign * bend) for sign in order
+        Fold((*path, names[sign]), wrapped(direction - sign * lean), wrapped(sign * bend - leaning), sign * bend)
+        for sign in order
     )
 
 
@@ -76,15 +77,15 @@ def fold_equations(book: Notebook, fold: Fold, u: Quantity, w: Quantity, links: 
     C, S = Quantity("C", math.cos(fold.bend), "number"), Quantity("S", math.sin(fold.bend), "number")
     direction = math.atan2(w.value, u.value)
     alpha = Quantity("\\alpha", direction, "angle")
-    beta = Quantity("\\beta", direction - fold.theta, "angle")
+    beta = Quantity("\\beta", wrapped(direction - fold.theta), "angle")
     sign = "-" if fold.bend < 0.0 else ""
     bent = "\\operatorname{atan2}(<S,>,\\,<C,>)" + ("-<lift>" if lift else "")
     return (
         book.figures.equation(S, f"{sign}\\sqrt{{1-<C>^2}}", C),
-        *book.joint(i + 1, fold.next_theta, bent, S, C, **({"lift": lift} if lift else {})),
+        *book.joint(i + 1, fold.bend - (lift.value if lift else 0.0), bent, S, C, **({"lift": lift} if lift else {})),
         book.figures.equation(alpha, "\\operatorname{atan2}(<w,>,\\,<u,>)", u=u, w=w),
         book.figures.equation(beta, _LEAN, S, C, a2=a2, a3=a3),
-        *book.joint(i, fold.theta, "<alpha,>-<beta>", alpha, beta),
+        *book.joint(i, direction - beta.value, "<alpha,>-<beta>", alpha, beta),
     )
 
 

@@ -85,7 +85,7 @@ def _write_wrist(book: Notebook, S: FloatArray, side: Side, fold: Fold) -> None:
     R = _R_0_3(book, side.theta1, fold.theta + fold.next_theta).T @ S[:3, :3]
     matrix = book.figures.matrix("{}^3R_6", "({}^0R_3)^T\\,{}^0R_6", R, ("number",) * 3)
     sine = math.hypot(R[0, 2], R[1, 2])
-    r13, r23 = (Quantity(f"r_{i}3", float(R[i - 1, 2]), "number") for i in (1, 2))
+    r13, r23 = (Quantity(f"r_{{{i}3}}", float(R[i - 1, 2]), "number") for i in (1, 2))
     length = book.figures.equation(Quantity("s", sine, "number"), "\\sqrt{<r13>^2+<r23>^2}", r13=r13, r23=r23)
     names = WRIST if rows.sine[4] > 0.0 else WRIST[::-1]
     free = sine < _SINGULAR
