@@ -20,7 +20,7 @@ BENCH = dev_environment.Kind(
     ".venv-bench",
     ("constraints.txt", "bench-constraints.txt"),
     # There is no pin for Windows; what needs it says so there.
-    ("roboticstoolbox-python", "pin; sys_platform != 'win32'", "threadpoolctl"),
+    ("roboticstoolbox-python", "sympy", "eaik", "ur-analytic-ik", "pin; sys_platform != 'win32'", "threadpoolctl"),
 )
 # One core and one thread each, and the processor's own kernels: variables that choose slower ones are dropped.
 _ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}

@@ -20,7 +20,7 @@ import numpy as np
 
 REPEATS = 9
 SHORTEST_SAMPLE = 0.05  # [s]; a call that is quicker is repeated until a sample lasts this long
-PACKAGES = ("rvsim", "numpy", "scipy", "roboticstoolbox-python", "spatialmath-python", "pin")
+PACKAGES = ("rvsim", "numpy", "scipy", "roboticstoolbox-python", "spatialmath-python", "pin", "eaik", "ur-analytic-ik")
 
 Call = Callable[[], Any]
 
