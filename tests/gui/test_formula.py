@@ -41,7 +41,8 @@ def test_a_filled_shape_looks_like_the_formula_set_by_itself(qapp, latex):
         alone.addPath(at.map(outline))
     for rule in direct.rules:
         alone.addRect(rule)
-    np.testing.assert_allclose(drawn(filled.path), drawn(alone), atol=1.0)  # an exponent stands a little closer to a narrow digit
+    # An exponent stands a little closer to a narrow digit.
+    np.testing.assert_allclose(drawn(filled.path), drawn(alone), atol=1.0)
 
 
 def test_a_minus_closes_up_to_its_number_over_an_empty_place(qapp):

@@ -50,6 +50,9 @@ _WRITERS: dict[type[ClosedForm], Writer] = {
     Cylindrical: solve_cylindrical,
     Cartesian: solve_cartesian,
 }
+_UNCONFIRMED = (
+    "No solution: so close to a singular pose rounding is too large, and forward kinematics does not confirm it."
+)
 _SAME = 1e-4  # [rad, m] an end and a branch closer than this are one
 
 
@@ -78,17 +81,17 @@ def worked_solution(robot: Robot, T: ArrayLike, near: ArrayLike | None = None) -
 
 
 def _with_verdict(robot: Robot, end: WorkedBranch, branches: Sequence[Branch]) -> WorkedBranch:
-    if end.q is None or not branches:
+    if end.q is None:
         return end
-    branch = min(branches, key=lambda found: _distance(robot, found.q, end.q))
-    if _distance(robot, branch.q, end.q) > _SAME:
-        return end
+    q = end.q
+    branch = min(branches, key=lambda found: _distance(robot, found.q, q), default=None)
+    if branch is None or _distance(robot, branch.q, q) > _SAME:
+        return replace(end, q=None, reason=_UNCONFIRMED)
     return replace(end, branch=branch, reason="" if branch.within_limits else _broken_limits(robot, branch))
 
 
-def _distance(robot: Robot, a: FloatArray, b: FloatArray | None) -> float:
+def _distance(robot: Robot, a: FloatArray, b: FloatArray) -> float:
     """The largest joint difference, whole turns aside."""
-    assert b is not None
     difference = a - b
     turns = 2.0 * np.pi * np.rint(difference / (2.0 * np.pi))
     return float(np.abs(difference - np.where(robot.is_revolute, turns, 0.0)).max())

@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,8 @@ from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.inverse import branch_labels, inverse_branches, inverse_kinematics, inverse_kinematics_batch
 from rvsim.lab.worked import worked_latex, worked_solution
 from rvsim.lab.worked.figures import Figures
+from rvsim.robot import Tool
+from rvsim.spatial import rot_x, rot_z, transform
 
 ARMS = sorted(robot_names())
 
@@ -58,6 +61,54 @@ def test_each_end_has_the_verdict_of_its_branch(name):
             same = min(branches, key=lambda branch: apart(robot, branch.q, end.q))
             assert end.within_limits == same.within_limits
             assert bool(end.reason) != end.within_limits
+
+
+# --- arms that are not shipped ---------------------------------------------------------------------------------------
+
+
+def with_tool(robot, xyz, R):
+    return replace(robot, tools=(Tool("bent", "Bent", transform(R, np.array(xyz))),), tool_name="bent")
+
+
+def edited(name, *changes):
+    robot = load_robot(name)
+    for joint, change in changes:
+        robot = robot.with_joint(joint, **change)
+    return robot
+
+
+SQUARE = 0.5 * np.pi
+EDITED = {
+    "5R with a hand": load_robot("rv-m1").with_tool("standard hand"),
+    "5R whose tip is beside its roll axis": with_tool(load_robot("rv-m1"), [0.01, 0.02, 0.1], rot_x(0.3)),
+    "5R with a shoulder beside the base axis": edited("rv-m1", (0, {"a": 0.05})),
+    "5R with other zeros": edited("rv-m1", (1, {"theta": 0.3}), (2, {"theta": -0.4})),
+    "5R the other way round": edited("rv-m1", (0, {"alpha": -SQUARE}), (3, {"alpha": -SQUARE})),
+    "5R with a half twist": edited("rv-m1", (1, {"alpha": np.pi})),
+    "6R parallel with more lengths": edited("ur5e", (0, {"a": 0.05}), (3, {"a": 0.04})),
+    "6R parallel the other way round": edited("ur5e", (0, {"alpha": -SQUARE}), (3, {"alpha": -SQUARE})),
+    "6R parallel with tool and zeros": with_tool(edited("ur5e", (0, {"theta": 0.3})), [0.1, 0.05, 0.2], rot_x(0.4)),
+    "6R spherical beside its axis": edited("rv-1a", (1, {"d": 0.07}), (0, {"a": 0.06})),
+    "6R spherical the other way round": edited("rv-1a", (0, {"alpha": SQUARE}), (3, {"alpha": SQUARE})),
+    "articulated with a bent tool": with_tool(edited("articulated", (1, {"d": 0.05})), [0.05, 0.03, 0.02], np.eye(3)),
+    "spherical with a bent tool": with_tool(edited("spherical", (2, {"theta": 0.4})), [0.03, 0.02, 0.1], np.eye(3)),
+    "SCARA with a bent tool": with_tool(edited("scara", (2, {"a": 0.05})), [0.05, 0.02, 0.1], rot_z(0.5)),
+    "SCARA without a half twist": edited("scara", (1, {"alpha": 0.0})),
+    "cylindrical beside its axis": edited("cylindrical", (1, {"a": 0.06})),
+}
+
+
+@pytest.mark.parametrize("robot", EDITED.values(), ids=EDITED.keys())
+def test_the_ends_are_the_branches_of_arms_with_other_lengths_signs_and_tools_too(robot):
+    for q in poses(robot, 12, seed=5):
+        T = forward_kinematics(robot, q)
+        columns = dict(zip(branch_labels(robot), inverse_kinematics_batch(robot, T[None])[0], strict=True))
+        worked = {end.label: end.q for end in worked_solution(robot, T).solutions}
+        assert worked.keys() == {label for label, column in columns.items() if np.isfinite(column).all()}
+        for label, found in worked.items():
+            assert apart(robot, found, columns[label]) <= 1e-9
+            reached = forward_kinematics(robot, found)
+            np.testing.assert_allclose(reached[:3, 3], T[:3, 3], atol=1e-9)
 
 
 # --- the arithmetic is true ------------------------------------------------------------------------------------------
