@@ -23,6 +23,8 @@ def _angle(figures: Figures, value: float) -> str:
 
 def _waist_000(figures: Figures, k: Numbers) -> str:
     printed = _angle(figures, math.atan2(k["x"], k["y"]))
+    if printed == _angle(figures, k["psi"]):
+        return ""
     return (
         f"Source 000, (10), prints atan2(x, −y), its y counted the other way round: {printed}. "
         f"In the sense of the DH table it is {_angle(figures, k['psi'])}."
@@ -101,6 +103,8 @@ def _waist_003(figures: Figures, k: Numbers) -> str:
     if not k["px"]:
         return ""
     printed = _angle(figures, math.atan(k["py"] / k["px"]))
+    if printed == _angle(figures, k["psi"]):
+        return ""
     return (
         f"Source 003 prints θ₁ = arctan(Py/Px) = {printed}; it must be atan2(Py−l₂, Px−l₁) = "
         f"{_angle(figures, k['psi'])}, as its program has it."
@@ -110,9 +114,11 @@ def _waist_003(figures: Figures, k: Numbers) -> str:
 def _roll_003(figures: Figures, k: Numbers) -> str:
     """The program feeds θ1 in radians to cosd and sind."""
     c, s = (f(math.radians(k["q1"])) for f in (math.cos, math.sin))
-    printed = math.atan2(s * k["nx"] - c * k["ny"], s * k["ox"] - c * k["oy"])
+    printed = _angle(figures, math.atan2(s * k["nx"] - c * k["ny"], s * k["ox"] - c * k["oy"]))
+    if printed == _angle(figures, k["q3"]):
+        return ""
     return (
-        f"Source 003's program takes cosd and sind of a θ₁ in radians: its θ₃ would be {_angle(figures, printed)}, "
+        f"Source 003's program takes cosd and sind of a θ₁ in radians: its θ₃ would be {printed}, "
         f"not {_angle(figures, k['q3'])}."
     )
 
