@@ -11,6 +11,9 @@ from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _TOUCHES = 1e-9  # [rad, m] a limit is reached, not broken, up to here
+_BESIDE = 0.03  # [rad, sizes]
+_BOTH = 0.1
+_SINGULAR = 1e-6
 _NEAR_SINGULAR = 0.02  # of the tool's motion in sizes of the arm a radian of the joints
 
 
@@ -57,18 +60,29 @@ def singular_words(robot: Robot, q: FloatArray) -> str:
     The left singular vector of the least singular value of J is the motion that is lost; lengths count in sizes of
     the arm. An arm of few joints has lost nothing by having few.
     """
-    J = jacobian(robot, q)
-    J[:3] /= robot.size
-    left, sigma, _ = np.linalg.svd(J, full_matrices=False)
-    if sigma[-1] > _NEAR_SINGULAR:
+    _, least, idle = _least_motion(robot, q)
+    if least > _NEAR_SINGULAR:
         return ""
-    shift, turn = left[:3, -1], left[3:, -1]
+    # At the pose itself what is lost cannot be told from what the arm never had: a little beside it can.
+    beside = q + _BESIDE * np.where(robot.is_revolute, 1.0, robot.size) * idle
+    left, _, _ = _least_motion(robot, beside)
+    shift, turn = left[:3], left[3:]
+    # A motion is lost as far as it lies along this one: a shift alone, a turn alone, or only one without the other.
     if np.linalg.norm(shift) >= np.linalg.norm(turn):
-        lost = f"move along {_direction(shift)}"
+        lost = f"move along {_direction(shift)}" + " without turning" * bool(np.linalg.norm(turn) > _BOTH)
     else:
-        lost = f"turn about {_direction(turn)}"
-    how = "cannot" if sigma[-1] < 1e-6 else "can hardly"
-    return f"{'Singular' if sigma[-1] < 1e-6 else 'Near a singularity'}: the tool {how} {lost}."
+        lost = f"turn about {_direction(turn)}" + " in place" * bool(np.linalg.norm(shift) > _BOTH)
+    where, how = ("Singular", "cannot") if least < _SINGULAR else ("Near a singularity", "can hardly")
+    return f"{where}: the tool {how} {lost}."
+
+
+def _least_motion(robot: Robot, q: FloatArray) -> tuple[FloatArray, float, FloatArray]:
+    """The tool's motion (6,) that takes most of the joints, its singular value, and those joints (n,), scaled."""
+    lengths = np.where(robot.is_revolute, 1.0, robot.size)
+    J = jacobian(robot, q) * lengths
+    J[:3] /= robot.size
+    left, sigma, right = np.linalg.svd(J, full_matrices=False)
+    return left[:, -1], float(sigma[-1]), right[-1]
 
 
 def _direction(vector: FloatArray) -> str:

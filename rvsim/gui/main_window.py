@@ -91,7 +91,7 @@ class MainWindow(QMainWindow):
         arm = self._add_dock("arm_dock", "Arm", self.joints, left)
         docks = [
             self._add_dock("path_dock", "Path", PathPanel(*arguments, self.tracker), right),
-            self._add_dock("inverse_dock", "Inverse", self._make_inverse(), right),
+            self._add_inverse(right),
             self._add_dock("tool_dock", "Tool", ToolPanel(*arguments), right),
             self._add_dock("matrices_dock", "Matrices", MatricesPanel(*arguments), right),
             self._add_dock("points_dock", "Points", PointsPanel(*arguments), right),
@@ -111,10 +111,13 @@ class MainWindow(QMainWindow):
         menu.addSeparator()
         menu.addMenu(panels)
 
-    def _make_inverse(self) -> InversePanel:
+    def _add_inverse(self, area: Qt.DockWidgetArea) -> QDockWidget:
+        """The panel that brings the gizmo along; behind another dock it is not seen, though Qt calls it visible."""
         panel = InversePanel(self.target, self.preferences)
         panel.shown.connect(self.gizmo.switch)
-        return panel
+        dock = self._add_dock("inverse_dock", "Inverse", panel, area)
+        dock.visibilityChanged.connect(panel.set_seen)
+        return dock
 
     def _add_dock(self, object_name: str, title: str, panel: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = QDockWidget(title, self)

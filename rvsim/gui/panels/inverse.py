@@ -235,7 +235,7 @@ class InversePanel(QWidget):
 
     def _show(self) -> None:
         answer = self._control.answer
-        if answer is None or not self.isVisible():
+        if answer is None or not self._control.is_watched_by(PANEL):
             return
         self.target.show_target(self._control.T)
         self.model.show_rows(self._rows(answer))
@@ -260,19 +260,24 @@ class InversePanel(QWidget):
             self._show_robot()
             self._show()
 
+    def set_seen(self, seen: bool) -> None:
+        """Whether the panel can be seen: a dock behind another one counts as shown for Qt, but not for the eye."""
+        if seen == self._control.is_watched_by(PANEL):
+            return
+        self._control.light(None)
+        self._control.watch(PANEL, seen)
+        self._show()
+        self.shown.emit(seen)
+
     def showEvent(self, event: QShowEvent) -> None:
         """Somebody watches: solve."""
         super().showEvent(event)
-        self._control.watch(PANEL, True)
-        self.shown.emit(True)
-        self._show()
+        self.set_seen(True)
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Nobody watches any more."""
         super().hideEvent(event)
-        self._control.light(None)
-        self._control.watch(PANEL, False)
-        self.shown.emit(False)
+        self.set_seen(False)
 
 
 def _numeric_note(answer: Answer) -> str:

@@ -17,6 +17,7 @@ from rvsim.spatial import nearest_rotation
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _ROTATION = 1e-2  # a rotation that far from orthogonal is a mistake, not rounding
 _LENGTHS = re.compile(r"(?:lengths? in|radians and)\s+(mm|millimet\w+|m|met\w+|unit)\b")
+_VECTOR = re.compile(r"^\s*([noap])\s*=\s*(.+)$", re.MULTILINE)
 _EXAMPLE = "1 0 0 300\n0 −1 0 0\n0 0 −1 150\n0 0 0 1"
 
 
@@ -34,7 +35,8 @@ def pose_from_text(text: str, T: FloatArray, factor: float) -> FloatArray:
     said = _LENGTHS.search(text)
     if said is not None:
         factor = 1e3 if said[1].startswith(("mm", "milli")) else 1.0
-    pose = _assembled(_rows(text), T, factor)
+    named = dict(_VECTOR.findall(text.replace("\u2212", "-")))
+    pose = _assembled(_columns(named) if set(named) == set("noap") else _rows(text), T, factor)
     astray = float(np.abs(pose[:3, :3].T @ pose[:3, :3] - np.eye(3)).max())
     if astray > _ROTATION or np.linalg.det(pose[:3, :3]) < 0.0:
         raise PoseError(
@@ -43,6 +45,14 @@ def pose_from_text(text: str, T: FloatArray, factor: float) -> FloatArray:
         )
     pose[:3, :3] = nearest_rotation(pose[:3, :3])
     return pose
+
+
+def _columns(named: dict[str, str]) -> list[list[float]]:
+    """The rows of a pose written as its vectors, each on a line: n = (…), o = (…), a = (…), p = (…)."""
+    vectors = [[float(number) for number in _NUMBER.findall(named[letter])] for letter in "noap"]
+    if any(len(vector) != 3 for vector in vectors):
+        raise PoseError("each of n, o, a, p must have three numbers.")
+    return [list(row) for row in zip(*vectors, strict=True)]
 
 
 def _rows(text: str) -> list[list[float]]:
