@@ -69,6 +69,7 @@ class Session(QObject):
         self._left: dict[str, Experiment] = {}
         self._tracking: Tracking | None = None
         self._merge_stroke = 0
+        self._fleeting = False  # whether what was said last is about something that the next change makes untrue
         self.gliding = False  # while `changed` tells of a whole new pose: whoever draws may go there smoothly
         self.undo_stack = QUndoStack(self)
 
@@ -124,7 +125,7 @@ class Session(QObject):
         violations = () if self._experiment.ignore_limits else limit_violations(self.robot, q)
         if violations:
             names = ", ".join(self.robot.joint_names[violation.joint] for violation in violations)
-            self.say(f"Not moved: outside the limits of {names}. Switch “Ignore limits” on to go there.", "warning")
+            self.warn(f"Not moved: outside the limits of {names}. Switch “Ignore limits” on to go there.")
             return False
         self.gliding = not merge
         try:
@@ -153,18 +154,22 @@ class Session(QObject):
             self.tracking_changed.emit(tracking)
 
     def say(self, text: str, level: str = "info") -> None:
-        """A sentence for the status line."""
+        """A sentence for the status line; it stays until the next one."""
+        self._fleeting = False
         self.said.emit(text, level)
 
     def warn(self, text: str) -> None:
-        """A warning for the status line; nothing for an empty text."""
+        """A warning about what was just tried; it goes with the next change. Nothing for an empty text."""
         if text:
             self.say(text, "warning")
+            self._fleeting = True
 
     def _put(self, experiment: Experiment) -> None:
         before, self._experiment = self._experiment, experiment
         if experiment is before:
             return
+        if self._fleeting:
+            self.say("")
         if experiment.robot is not before.robot:
             self.set_tracking(None)
         self.changed.emit(before, experiment)

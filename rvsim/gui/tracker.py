@@ -14,7 +14,7 @@ from rvsim.gui.session import Session
 from rvsim.lab.lines import line_presets
 from rvsim.lab.named_paths import line_of, named_path
 from rvsim.lab.sentences import tracking_sentence
-from rvsim.motion import Path, Tracking, track, trajectory_of
+from rvsim.motion import Path, Tracking, Trajectory, track, trajectory_of
 
 # Where a path of a source cannot be drawn as printed: the same path where it can.
 _PLACEMENTS = {
@@ -22,6 +22,7 @@ _PLACEMENTS = {
     "letter-scaled": "letter-flat",
     "ellipse": "ellipse-moved",
 }
+_REMEMBERED = 8  # results that undo can bring back
 
 
 class Repair(NamedTuple):
@@ -30,6 +31,28 @@ class Repair(NamedTuple):
     title: str
     tip: str
     experiment: Experiment
+
+
+class _Done(NamedTuple):
+    """A tracking, and the state that it is the result of."""
+
+    kind: str
+    experiment: Experiment
+    tracking: Tracking
+    trajectory: Trajectory | None
+    text: str
+
+    def still_holds(self, experiment: Experiment) -> bool:
+        """Whether tracking in that state would give the same, from wherever the arm stands."""
+        own, other = self.experiment, experiment
+        same_task = own.line is other.line if self.kind == "line" else own.trajectory is other.trajectory
+        same_limits = own.ignore_limits == other.ignore_limits or self._needs_no_choice()
+        return same_task and own.robot is other.robot and same_limits
+
+    def _needs_no_choice(self) -> bool:
+        """Whether it is whole and within the limits, so that it is the same whether they are heeded or not."""
+        tracking = self.tracking
+        return tracking.complete and not any(limit_violations(tracking.robot, q) for q in tracking.q)
 
 
 class PathTracker(QObject):
@@ -41,6 +64,7 @@ class PathTracker(QObject):
         super().__init__(parent)
         self._session, self._motion = session, motion
         self.kind = "line"
+        self._done: list[_Done] = []  # the last one is shown
         session.changed.connect(self._on_changed)
 
     def track_line(self) -> None:
@@ -66,17 +90,23 @@ class PathTracker(QObject):
 
     def clear(self) -> None:
         """Take the tracked path and its motion out."""
+        self._done = []
         self._motion.load(None, "")
         self._session.set_tracking(None)
 
-    def _on_changed(self, before: Experiment, after: Experiment) -> None:
-        """Limits that are heeded again are heeded by a motion that was worked out without them as well."""
-        tracking = self._session.tracking
-        if tracking is None or not before.ignore_limits or after.ignore_limits:
+    def _on_changed(self, _before: Experiment, after: Experiment) -> None:
+        """A result stays as long as it is the result of what stands in the panel; undo brings an earlier one back."""
+        shown = self._session.tracking
+        if shown is not None and self._done[-1].still_holds(after):
             return
-        if any(limit_violations(tracking.robot, q) for q in tracking.q[tracking.reached]):
-            self.clear()
-            self._session.say("The path led beyond the limits, which count again: track it once more.", "warning")
+        known = next((done for done in reversed(self._done) if done.still_holds(after)), None)
+        if known is not None:
+            self._done.remove(known)
+            self._show(known)
+        elif shown is not None:
+            self._motion.load(None, "")
+            self._session.set_tracking(None)
+            self._session.say("Changed: track it again to see what the arm can do now.")
 
     # --- inside ----------------------------------------------------------------------------------------------------
 
@@ -90,11 +120,16 @@ class PathTracker(QObject):
         except RvsimError as problem:
             self._session.say(str(problem), "error")
             return
-        self._motion.load(trajectory_of(tracking, experiment.q), text)
-        self._session.set_tracking(tracking)
+        self._show(_Done(kind, experiment, tracking, trajectory_of(tracking, experiment.q), text))
         self._session.say(tracking_sentence(tracking), "info" if tracking.complete else "warning")
         self.tracked.emit(kind)
         self._motion.play()
+
+    def _show(self, done: _Done) -> None:
+        self.kind = done.kind
+        self._done = [*self._done, done][-_REMEMBERED:]
+        self._motion.load(done.trajectory, done.text)
+        self._session.set_tracking(done.tracking)
 
     def _path(self, experiment: Experiment) -> Path:
         robot, task = experiment.robot, experiment.trajectory
@@ -124,7 +159,7 @@ class PathTracker(QObject):
     def _placement(self, tracking: Tracking) -> Repair | None:
         experiment, tip = self._session.experiment, "Move it to a place where the arm reaches all of it"
         if self.kind == "line":
-            return Repair("Reachable line", tip, replace(experiment, line=line_presets(tracking.robot)[0].task()))
+            return Repair("Preset line", tip, replace(experiment, line=line_presets(tracking.robot)[0].task()))
         drawable = _PLACEMENTS.get(experiment.trajectory.name)
         if drawable is None:
             return None

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPushButton,
+    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
@@ -32,8 +33,12 @@ from rvsim.motion import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.edits import original_name
 
-_LINE_ORIENTATIONS = {"down": "Tool straight down", "free": "Tool tilts as it likes", "keep": "Tool as it is now"}
-_PATH_ORIENTATIONS = {"source": "As in the source", **_LINE_ORIENTATIONS}
+_LINE_ORIENTATIONS = {
+    "down": "Tool straight down",
+    "free": "Free pitch: it tilts as it likes",
+    "keep": "Tool as it is now",
+}
+_PATH_ORIENTATIONS = {"source": "As the path has it", **_LINE_ORIENTATIONS}
 _AXES = ("x", "y", "z")
 _NEEDS_HEIGHT = "letter-scaled"  # its source gives no height
 
@@ -54,8 +59,13 @@ class LineSection(QGroupBox):
         self.resolution.quantity_changed.connect(lambda value: self._edit("line step", "line step", resolution=value))
         self.resolution.refused.connect(session.warn)
         self.resolution.editingFinished.connect(session.end_stroke)
-        self.samples = QLabel()
-        set_role(self.samples, role="muted")
+        self.samples = QSpinBox()
+        self.samples.setObjectName("line_points")
+        self.samples.setAccessibleName("Number of points on the line")
+        self.samples.setRange(2, 1001)
+        self.samples.setKeyboardTracking(False)
+        self.samples.setSuffix(" points")
+        self.samples.valueChanged.connect(lambda count: self._edit("line step", resolution=1.0 / (count - 1)))
         self.orientation = combo("line_orientation", "Tool orientation along the line", _LINE_ORIENTATIONS)
         self.orientation.activated.connect(lambda _: self._on_orientation(self.orientation.currentData()))
         tip = "Solve the line and move the tool along it (Ctrl+L)"
@@ -83,8 +93,8 @@ class LineSection(QGroupBox):
             for column, box in enumerate(self.boxes[end]):
                 grid.addWidget(box, row, column + 1)
         step = QHBoxLayout()
-        step.addWidget(self.resolution)
-        step.addSpacing(6)
+        step.setSpacing(6)
+        step.addWidget(self.resolution, 1)
         step.addWidget(self.samples, 1)
         rows = form()
         rows.addRow("Preset", self.presets)
@@ -102,7 +112,8 @@ class LineSection(QGroupBox):
                 box.set_kind(kind)
                 box.set_quantity(float(value))
         self.resolution.set_quantity(line.resolution)
-        self.samples.setText(f"of the line: {line.samples} points")
+        with QSignalBlocker(self.samples):
+            self.samples.setValue(line.samples)
         select(self.orientation, line.orientation)
         self._show_presets(experiment)
 
@@ -208,7 +219,9 @@ class ResultSection(QGroupBox):
     def __init__(self, session: Session, preferences: Preferences, tracker: PathTracker) -> None:
         super().__init__("Result")
         self._session, self._preferences, self._tracker = session, preferences, tracker
-        self.reached, self.rms, self.largest, self.time = QLabel(), QLabel(), QLabel(), QLabel()
+        self.reached, self.rms, self.largest, self.between, self.time = (QLabel() for _ in range(5))
+        self.between.setObjectName("between_label")
+        self.between.setToolTip("How far the tool leaves the way between neighbouring points; more points make it less")
         self.rms.setObjectName("rms_label")
         self.reached.setObjectName("reached_label")
         self.sentence = QLabel(wordWrap=True)
@@ -220,6 +233,7 @@ class ResultSection(QGroupBox):
         rows.addRow("Reached", self.reached)
         rows.addRow("RMS", self.rms)
         rows.addRow("Largest", self.largest)
+        rows.addRow("Between", self.between)
         rows.addRow("Solved in", self.time)
         rows.addRow(self.sentence)
         rows.addRow(self._repairs)
@@ -233,7 +247,7 @@ class ResultSection(QGroupBox):
             if item is not None and (old := item.widget()) is not None:
                 old.deleteLater()
         if tracking is None:
-            for label in (self.reached, self.rms, self.largest, self.time):
+            for label in (self.reached, self.rms, self.largest, self.between, self.time):
                 label.setText("\u2013")
             self.sentence.setText("Nothing tracked yet. Track line moves the tool from start to end.")
             set_role(self.sentence, level="")
@@ -246,9 +260,11 @@ class ResultSection(QGroupBox):
 
     def _show_numbers(self, tracking: Tracking) -> None:
         self.reached.setText(f"{tracking.reached_count} of {tracking.samples} points")
-        of_reached = " (reached points)" if 0 < tracking.reached_count < tracking.samples else ""
+        of_reached = " (reached points)" if 0 < tracking.reached_count < tracking.samples else " (at the points)"
+        of_reached = of_reached if tracking.reached_count else ""
         self.rms.setText(_deviation(tracking.rms, tracking) + of_reached)
         self.largest.setText(_deviation(tracking.max_deviation, tracking) + of_reached)
+        self.between.setText(_deviation(tracking.way_deviation, tracking))
         milliseconds = tracking.solve_seconds * 1e3
         self.time.setText(f"{milliseconds:.2f} ms ({tracking.seconds_per_point * 1e6:.0f} µs a point)")
 

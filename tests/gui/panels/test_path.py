@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QComboBox, QPushButton
+from PySide6.QtWidgets import QComboBox, QPushButton, QSpinBox
 
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.path import PathPanel
@@ -66,12 +66,12 @@ def test_missed_points_come_with_what_would_help(panel: PathPanel) -> None:
         for box, value in zip(panel.line.boxes[end], point, strict=True):
             box.setValue(1e3 * value)
     panel.line.button.click()
-    assert repairs(panel) == {"Free pitch", "Ignore limits", "Reachable line"}
+    assert repairs(panel) == {"Free pitch", "Ignore limits", "Preset line"}
     assert "reached points" in panel.result.rms.text()
 
 
 @pytest.mark.parametrize(
-    ("name", "reached"), [("repair_free_pitch", 6), ("repair_ignore_limits", 11), ("repair_reachable_line", 51)]
+    ("name", "reached"), [("repair_free_pitch", 6), ("repair_ignore_limits", 11), ("repair_preset_line", 51)]
 )
 def test_each_repair_of_the_sources_line_reaches_more_than_four_points(
     panel: PathPanel, name: str, reached: int
@@ -92,13 +92,13 @@ def test_a_letter_out_of_reach_offers_the_drawable_placement(panel: PathPanel) -
     assert not np.isnan(tracking.q).any()
 
 
-def test_limits_that_count_again_take_a_path_out_that_leads_beyond_them(panel: PathPanel) -> None:
+def test_limits_that_count_again_bring_back_what_is_reached_within_them(panel: PathPanel) -> None:
     session = panel.line._session
     test_missed_points_come_with_what_would_help(panel)
     panel.findChild(QPushButton, "repair_ignore_limits").click()
+    assert session.tracking.complete
     session.edit("Respect limits", replace(session.experiment, ignore_limits=False))
-    assert session.tracking is None
-    assert "beyond the limits" in session.sentences[-1][0]
+    assert session.tracking.reached_count == 4
 
 
 def test_limits_that_count_again_leave_a_path_that_heeds_them(panel: PathPanel) -> None:
@@ -108,3 +108,25 @@ def test_limits_that_count_again_leave_a_path_that_heeds_them(panel: PathPanel) 
     panel.line.button.click()
     session.edit("Respect limits", replace(session.experiment, ignore_limits=False))
     assert session.tracking is not None
+
+
+def test_the_number_of_points_can_be_typed(panel: PathPanel) -> None:
+    panel.findChild(QSpinBox, "line_points").setValue(11)
+    assert panel.line.resolution.quantity == pytest.approx(0.1)
+    assert panel.line._session.experiment.line.samples == 11
+
+
+def test_a_result_goes_with_what_it_was_the_result_of_and_undo_brings_it_back(panel: PathPanel) -> None:
+    session = panel.line._session
+    panel.line.button.click()
+    tracking = session.tracking
+    assert tracking is not None
+    panel.line.boxes["end"][2].setValue(205.0)
+    assert session.tracking is None
+    assert panel.result.reached.text() == "\u2013"
+    session.undo_stack.undo()
+    assert session.tracking is tracking
+    panel.findChild(QSpinBox, "line_points").setValue(21)
+    panel.line.button.click()
+    assert session.tracking is not None
+    assert session.tracking is not tracking
