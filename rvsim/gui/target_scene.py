@@ -16,6 +16,7 @@ from rvsim.scene.palette import ScenePalette
 from rvsim.scene.primitives import Item, Label, Labels, Polyline, Triads
 
 PANEL = "panel"  # the watcher for whom the ghosts are shown
+_HERE = 1e-6  # [rad, m] a branch so close is where the arm is
 _AWAY = 1e-6  # [m] a target so close is where the tool is
 _FRAME = 0.10  # the length of the target's axes, in sizes of the arm
 
@@ -49,7 +50,7 @@ class TargetScene(QObject):
         if control.is_watched_by(PANEL) and answer.numeric is None:
             named = [(control.name_of(branch), branch) for branch in answer.branches]
             ghosts = [
-                Ghost(name, circled(name), branch.q, branch.within_limits, name == control.lit)
+                Ghost(name, circled(name), branch.q, branch.within_limits, name == control.lit, branch.distance < _HERE)
                 for name, branch in named
                 if everything or name == control.lit
             ]

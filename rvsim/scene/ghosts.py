@@ -25,13 +25,17 @@ _OUTSIDE_WIDTH, _OUTSIDE_ALPHA = 2.6, 0.85
 
 
 class Ghost(NamedTuple):
-    """One pose: its key, what is written beside it, its joints (n,), whether it keeps the limits, and is lit."""
+    """One pose: its key, what is written beside it, its joints (n,), whether it keeps the limits, and is lit.
+
+    Where the arm itself stands (`here`) only the name is drawn.
+    """
 
     key: str
     title: str
     q: FloatArray
     within: bool
     lit: bool = False
+    here: bool = False
 
 
 def ghost_items(robot: Robot, ghosts: Sequence[Ghost], palette: ScenePalette, look: Look = "stick") -> tuple[Item, ...]:
@@ -44,8 +48,8 @@ def ghost_items(robot: Robot, ghosts: Sequence[Ghost], palette: ScenePalette, lo
     T = link_transforms(robot, np.stack([ghost.q for ghost in ghosts]))
     poses = [posed(robot, each) for each in T]
     pairs = list(zip(ghosts, poses, strict=True))
-    items = [_outline(ghost, pose, palette) for ghost, pose in pairs if not ghost.within]
-    items += _links([pose for ghost, pose in pairs if ghost.within and not ghost.lit], palette)
+    items = [_outline(ghost, pose, palette) for ghost, pose in pairs if not (ghost.within or ghost.here)]
+    items += _links([pose for ghost, pose in pairs if ghost.within and not (ghost.lit or ghost.here)], palette)
     for ghost in ghosts:
         if ghost.lit:
             key = f"{GHOST_KEY}{ghost.key}"
@@ -101,9 +105,15 @@ def _name(place: FloatArray, ghosts: list[Ghost], palette: ScenePalette) -> Labe
 
 
 def _own_place(index: int, poses: Sequence[Pose]) -> FloatArray:
-    own = np.concatenate([poses[index].corners, poses[index].joints])
-    others = [pose.joints for number, pose in enumerate(poses) if number != index]
-    if not others:
-        return np.array(own[len(own) // 2], dtype=np.float64)
-    gaps = np.linalg.norm(own[:, None] - np.concatenate(others)[None], axis=2).min(axis=1)
-    return np.array(own[int(np.argmax(gaps))], dtype=np.float64)
+    """Where a ghost is farthest from all others, but for those that look just like it."""
+    points = [np.concatenate([pose.corners, pose.joints]) for pose in poses]
+    own, near = points[index], 1e-3 * poses[index].robot.size
+    gaps = [_gaps(own, other) for other in points]
+    different = [gap for gap in gaps if gap.max() > near]
+    best = int(np.argmax(np.min(different, axis=0))) if different else len(own) // 2
+    return np.array(own[best], dtype=np.float64)
+
+
+def _gaps(points: FloatArray, others: FloatArray) -> FloatArray:
+    """(k,) how far each point (k, 3) is from the nearest of the others."""
+    return np.asarray(np.linalg.norm(points[:, None] - others[None], axis=2).min(axis=1))

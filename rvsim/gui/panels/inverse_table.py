@@ -28,6 +28,15 @@ SORT_ROLE = Qt.ItemDataRole.UserRole
 NAME_ROLE = Qt.ItemDataRole.UserRole + 1
 _TOP = QModelIndex()
 _HERE = 1e-6  # [rad, m] a branch so close is where the arm is
+# Texts as long as any that comes, so that columns stand still; a title may take two lines.
+_WIDEST = {
+    "branch": "shoulder stops at 100.0°",
+    "limits": "shoulder −156.7° stops at",
+    "residual": "8.8e−88",
+    "margin": "−888.8°",
+    "moves": "−888.8°",
+}
+_WIDEST_TITLE = "wrist no-flip, elbow up"
 _CONTINUUM = "One of infinitely many: a joint may take any value here."
 
 
@@ -268,12 +277,11 @@ class BranchTable(QTableView):
         """Widths for the longest text that can come, so that nothing jumps while the arm moves."""
         metrics = text_metrics()
         for index, column in enumerate(self.branches.columns):
-            widest = {"branch": "shoulder stops at −110", "limits": "shoulder −156.7° stops at"}.get(
-                column.head, "−888.8"
-            )
-            extra = {"residual": "e−1", "margin": "°  ", "moves": "°  "}.get(column.head, "")
-            width = max(metrics.horizontalAdvance(text) for text in (widest + extra, column.head + " ▾"))
-            self.setColumnWidth(index, width + 12)
+            widest = _WIDEST.get(column.head, "−888.8")
+            width = max(metrics.horizontalAdvance(text) for text in (widest, f"{column.head} ▾"))
+            if index == 0:
+                width = max(width, QFontMetrics(_bold()).horizontalAdvance(_WIDEST_TITLE))
+            self.setColumnWidth(index, width + 8)
         self._fit_rows()
 
     def _fit_rows(self) -> None:
