@@ -65,13 +65,13 @@ class FiveAxis(ClosedForm):
         q[:2, 0] = np.arctan2(plane.y, plane.x)
         q[:2, 4] = np.arctan2(xx * plane.y - xy * plane.x, yx * plane.y - yy * plane.x)
         q[2:, 0], q[2:, 4] = q[0, 0] + math.pi, q[0, 4] + math.pi
-        u = r - self.d5 * ar + self.a4 * az
-        w = z - self.d1 - self.d5 * az - self.a4 * ar
+        u, w = r - self.d5 * ar, z - self.d1 - self.d5 * az
         bend = np.arctan2(ar, -az)
-        front = solve_elbow(u - self.a1, w, self.a2, self.a3)
-        # The back is the front's mirror image, unless axis 2 passes beside axis 1.
+        front = solve_elbow(u + self.a4 * az - self.a1, w - self.a4 * ar, self.a2, self.a3)
+        # The back is the front's mirror image, unless axis 2 passes beside axis 1 or axis 5 beside axis 4.
         mirrored = front._replace(direction=math.pi - front.direction)
-        back = solve_elbow(-u - self.a1, w, self.a2, self.a3) if self.a1 else mirrored
+        beside = self.a1 or self.a4
+        back = solve_elbow(-u + self.a4 * az - self.a1, w + self.a4 * ar, self.a2, self.a3) if beside else mirrored
         _fill(q[:2], front, bend, self.up)
         _fill(q[2:], back, -bend, -self.up)
         erase(q[:2], front.missing | plane.infeasible)

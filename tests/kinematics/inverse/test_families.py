@@ -60,6 +60,22 @@ def test_a_stanford_like_5r_arm_with_its_axes_the_other_way_round_is_solved(rand
     assert np.nanmin(apart(robot, q, true[:, None]), axis=1).max() < 1e-5
 
 
+@pytest.mark.parametrize("beside", [{0: 0.05}, {3: 0.03}, {0: -0.04, 3: -0.02}])
+def test_axes_that_pass_beside_each_other_are_solved_on_both_sides(beside, random_q, apart):
+    robot = load_robot("rv-m1")
+    for joint, a in beside.items():
+        robot = robot.with_joint(joint, a=a)
+    true = random_q(robot, 1000)
+    T = forward_kinematics(robot, true)
+    q = inverse_kinematics_batch(robot, T)
+    assert np.nanmin(apart(robot, q, true[:, None]), axis=1).max() < 1e-5
+    there = ~np.isnan(q[..., 0])
+    poses = np.broadcast_to(T[:, None], (*there.shape, 4, 4))[there]
+    np.testing.assert_allclose(forward_kinematics(robot, q[there]), poses, atol=1e-9)
+    assert there[:, :2].any()
+    assert there[:, 2:].any()
+
+
 def test_the_normal_form_is_the_same_arm(random_q):
     for name in ("rv-m1", "rv-1a", "ur5e", "rrrp", "al5b", "scara", "cylindrical", "cartesian"):
         robot = load_robot(name)
