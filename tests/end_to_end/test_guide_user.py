@@ -88,6 +88,14 @@ def test_a_value_outside_the_limits_is_refused_until_they_are_ignored(qtbot: QtB
     assert find(window, QDoubleSpinBox, "joint_value_3").property("outside") is True
 
 
+def test_a_value_far_beyond_the_slider_is_taken_where_limits_are_ignored(qtbot: QtBot, window: MainWindow) -> None:
+    press(qtbot, window, "ignore_limits_switch")
+    type_into(qtbot, window, "joint_value_1", "-1e9")
+    assert values(window)[0] == pytest.approx(-1e9)
+    slider = find(window, QSlider, "joint_slider_1")
+    assert slider.value() == slider.minimum()
+
+
 def test_sliders_move_joints_and_undo_takes_them_back(window: MainWindow) -> None:
     slider = find(window, QSlider, "joint_slider_1")
     for position in (100, 300, 450):

@@ -131,7 +131,9 @@ class JointRow(QWidget):
         """Show a joint value [rad, m], silently."""
         self.box.set_quantity(value)
         with QSignalBlocker(self.slider):
-            self.slider.setValue(round(value / self._step))
+            # Where limits are ignored a value may lie beyond the slider, and beyond the integers that it counts in.
+            position = min(max(value / self._step, self.slider.minimum()), self.slider.maximum())
+            self.slider.setValue(round(position))
         lower, upper = self._robot.limits[self._index]
         outside = not lower - 1e-9 <= value <= upper + 1e-9
         if outside == self._mark.isHidden():
