@@ -15,6 +15,8 @@ from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.dh_table import DHTablePanel
 from rvsim.gui.panels.inverse import InversePanel
 from rvsim.gui.panels.joints import JointsPanel
+from rvsim.gui.panels.laboratory import LaboratoryPanel
+from rvsim.gui.panels.laboratory_scene import LaboratoryScene
 from rvsim.gui.panels.matrices import MatricesPanel
 from rvsim.gui.panels.path import PathPanel
 from rvsim.gui.panels.points import PointsPanel
@@ -40,7 +42,7 @@ _TOOLBAR_TEXTS = {
     "look_stick": "Stick", "look_both": "Both", "dark": "◐ Dark",
 }  # fmt: skip
 _STATE_VERSION = 1
-_LEFT_WIDTH, _RIGHT_WIDTH = 284, 350
+_LEFT_WIDTH, _RIGHT_WIDTH = 284, 372
 
 
 class MainWindow(QMainWindow):
@@ -92,6 +94,7 @@ class MainWindow(QMainWindow):
         docks = [
             self._add_dock("path_dock", "Path", PathPanel(*arguments, self.tracker), right),
             self._add_inverse(right),
+            self._add_laboratory(right),
             self._add_dock("tool_dock", "Tool", ToolPanel(*arguments), right),
             self._add_dock("matrices_dock", "Matrices", MatricesPanel(*arguments), right),
             self._add_dock("points_dock", "Points", PointsPanel(*arguments), right),
@@ -117,6 +120,15 @@ class MainWindow(QMainWindow):
         panel.shown.connect(self.gizmo.switch)
         dock = self._add_dock("inverse_dock", "Inverse", panel, area)
         dock.visibilityChanged.connect(panel.set_seen)
+        return dock
+
+    def _add_laboratory(self, area: Qt.DockWidgetArea) -> QDockWidget:
+        """The panel that shows its iterates in the scene, while it can be seen."""
+        self.laboratory = LaboratoryPanel(self.session, self.preferences)
+        self.laboratory_scene = LaboratoryScene(self.laboratory, self.session, self.stage, self.preferences)
+        self.laboratory.set_seen(False)
+        dock = self._add_dock("lab_dock", "IK lab", self.laboratory, area)
+        dock.visibilityChanged.connect(self.laboratory.set_seen)
         return dock
 
     def _add_dock(self, object_name: str, title: str, panel: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
@@ -234,6 +246,7 @@ class MainWindow(QMainWindow):
         """Remember the layout; stop what moves."""
         self.motion.pause()
         self.target.close()
+        self.laboratory.stop()
         geometry, layout = self.window_layout()
         self.preferences.keep_window_state("geometry", geometry)
         self.preferences.keep_window_state("layout", layout)

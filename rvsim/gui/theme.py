@@ -85,7 +85,7 @@ QPushButton[primary="true"]:disabled {{ background: {border}; border-color: {bor
 QDockWidget {{ font-weight: 600; }}
 QDockWidget::title {{ background: {window}; padding: 6px 8px; }}
 QDockWidget > QWidget {{ font-weight: 400; }}
-QTabBar::tab {{ background: transparent; padding: 6px 7px; border: none; border-bottom: 2px solid transparent;
+QTabBar::tab {{ background: transparent; padding: 6px 5px; border: none; border-bottom: 2px solid transparent;
     color: {muted}; }}
 QTabBar::tab:selected {{ color: {text}; border-bottom-color: {accent}; }}
 QTabBar::tab:hover {{ color: {text}; }}

@@ -22,11 +22,11 @@ from rvsim.kinematics.numeric import (
     Task,
     solve_numeric,
 )
-from rvsim.lab.sentences import MINUS, joint_amount, length_error
+from rvsim.lab.sentences import MINUS, joint_amount
 from rvsim.lab.source_002 import Comparison
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
-from rvsim.units import degrees_from_radians
+from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 TITLES: dict[Solver, str] = {
     "newton": "Newton–Raphson",
@@ -34,6 +34,7 @@ TITLES: dict[Solver, str] = {
     "lm": "Levenberg–Marquardt",
     "bfgs": "BFGS gradient projection",
 }
+SHORT_TITLES: dict[Solver, str] = {"newton": "Newton", "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
 EXACT = Preset(
     "Exact, one try",
     "Until a millionth of a metre and of a radian, within the limits, and without random restarts: what each solver "
@@ -49,6 +50,8 @@ PRESETS = (EXACT, AS_IN_SOURCE_000, AS_IN_SOURCE_002)
 _SAME = 1e-2  # [rad, m] configurations nearer than this are the same solution
 # [s] by which the clock leaps when a contest is cancelled: the solver at work finds its time used up.
 _LEAP = 1e9
+# A solver that took less than this [s] is timed so many times more.
+_BRIEF, _REPEATS = 0.02, 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,10 +112,17 @@ def run_contest(trial: Trial, cancelled: Callable[[], bool] = lambda: False) -> 
 
     outcomes: list[Outcome] = []
     for solver in SOLVERS:
-        outcomes.append(Outcome(solver, _solved(trial, solver, clock)))
+        outcomes.append(Outcome(solver, _quickest(trial, solver, clock)))
         if cancelled():
             return None
     return Contest(trial, tuple(outcomes))
+
+
+def _quickest(trial: Trial, solver: Solver, clock: Callable[[], float]) -> NumericResult:
+    """The result, which is the same each time, with the least of a few times taken: others use the machine as well."""
+    result = _solved(trial, solver, clock)
+    again = _REPEATS if result.elapsed < _BRIEF else 0
+    return min((result, *(_solved(trial, solver, clock) for _ in range(again))), key=lambda each: each.elapsed)
 
 
 def _solved(trial: Trial, solver: Solver, clock: Callable[[], float]) -> NumericResult:
@@ -153,12 +163,12 @@ def contest_sentence(contest: Contest) -> str:
 def _solutions_clause(contest: Contest) -> str:
     groups = same_solutions(contest)
     if len(groups) == 1:
-        return "They come to the same joints."
-    return f"They come to {len(groups)} different solutions: {'; '.join(map(_together, groups))}."
+        return "They end in the same pose of the arm."
+    return f"They end in {len(groups)} different poses of the arm: {'; '.join(map(_together, groups))}."
 
 
 def _together(group: Sequence[Outcome]) -> str:
-    return " and ".join(outcome.title for outcome in group)
+    return " and ".join(SHORT_TITLES[outcome.solver] for outcome in group)
 
 
 def same_solutions(contest: Contest) -> tuple[tuple[Outcome, ...], ...]:
@@ -178,10 +188,18 @@ def same_solutions(contest: Contest) -> tuple[tuple[Outcome, ...], ...]:
 
 
 def _missing(trial: Trial, result: NumericResult) -> str:
-    place = length_error(trial.robot, result.position_error)
-    if trial.task == "position":
-        return place
-    return f"{place} and {degrees_from_radians(result.rotation_error):.1e}°".replace("-", MINUS)
+    in_units = trial.robot.length_unit == "unit"
+    place = result.position_error if in_units else millimetres_from_metres(result.position_error)
+    text = f"{_short(place)} {'units' if in_units else 'mm'}"
+    if trial.task == "pose":
+        text += f" and {_short(degrees_from_radians(result.rotation_error))}°"
+    return text
+
+
+def _short(number: float) -> str:
+    """Three digits; powers of ten only where the number is small."""
+    text = f"{number:.0f}" if number >= 100.0 else f"{number:.3g}"
+    return text.replace("-", MINUS)
 
 
 def _curve_note(result: NumericResult) -> str:
