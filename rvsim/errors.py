@@ -106,7 +106,7 @@ class ExpressionError(RvsimError, ValueError):
 
     def __init__(self, text: str, reason: str) -> None:
         self.text, self.reason = text, reason
-        super().__init__(f"“{text}” is no number: {reason}. Type a number or an expression like pi/4, sqrt(2)/2.")
+        super().__init__(f"“{text}” is no number: {reason}. Type a number or an expression like 90/4, 2*30, pi/4 rad.")
 
 
 class PoseError(RvsimError, ValueError):

@@ -1,4 +1,7 @@
-"""Typed numbers: 12.5, 12,5, −3, pi/4, 2*30, sqrt(2)/2. Never `eval`: the library knows only the names given here."""
+"""Typed numbers: 12.5, 12,5, −3, 2*30, sqrt(2)/2, with or without a unit behind: pi/4 rad, 12 cm.
+
+Never `eval`: the library knows only the names given here.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +17,43 @@ _LONGEST = 200
 # The comma is a decimal separator when it stands between digits outside a function's arguments.
 _DECIMAL_COMMA = re.compile(r"^\s*[-+]?\d*,\d+\s*$")
 _TYPOGRAPHY = str.maketrans({"\u2212": "-", "\u2013": "-", "×": "*", "·": "*", "÷": "/", "\u00a0": " ", "\u202f": " "})
+
+# The kind of each unit that may stand behind a number, and how much one of it is in radians, metres, or units.
+_UNITS = {
+    **dict.fromkeys(("°", "deg", "degree", "degrees"), ("an angle", math.pi / 180.0)),
+    **dict.fromkeys(("rad", "radian", "radians"), ("an angle", 1.0)),
+    "mm": ("a length", 1e-3),
+    "cm": ("a length", 1e-2),
+    "m": ("a length", 1.0),
+    **dict.fromkeys(("unit", "units"), ("a length without a unit", 1.0)),
+}
+_WITH_UNIT = re.compile(rf"(.*?)\s*({'|'.join(sorted(_UNITS, key=len, reverse=True))})", re.DOTALL)
+
+
+def evaluate_in(unit: str, text: str) -> float:
+    """The number in `unit` that a typed text means: plain numbers are in `unit`, others say theirs behind.
+
+    In "deg" is 45 what "pi/4 rad" means, in "mm" 120 what "12 cm" means.
+
+    Args:
+        unit: "°", "deg", "rad", "mm", "cm", "m" or "unit"; "" where no unit may be said.
+        text: an expression as in `evaluate`.
+
+    Raises:
+        ExpressionError: no expression, or a unit of another kind.
+    """
+    match = _WITH_UNIT.fullmatch(text.strip())
+    if match is None:
+        return evaluate(text)
+    try:
+        value = evaluate(match[1])
+    except ExpressionError as problem:
+        raise ExpressionError(text, problem.reason) from None
+    kind, size = _UNITS[match[2]]
+    wanted, wanted_size = _UNITS.get(unit, ("a plain number", 1.0))
+    if kind != wanted:
+        raise ExpressionError(text, f"“{match[2]}” makes it {kind}, and wanted is {wanted}")
+    return value * (size / wanted_size)
 
 
 def evaluate(text: str) -> float:

@@ -54,7 +54,7 @@ SWITCHES: dict[str, Switch] = {
 
 _QUICK_START = """<h3>The first minute</h3>
 <p>Drag a slider on the left: the joint turns and the read-out in the panel <b>Tool</b> follows.
-Type a value, or an expression such as <code>pi/4</code> or <code>2*30</code>.</p>
+Type a value, or an expression such as <code>90/4</code>, <code>2*30</code> or <code>pi/4 rad</code>.</p>
 <p>Press <b>Track line</b>: the tool moves from start to end, and <b>Result</b> says how many points were reached,
 how exactly, and which joint stands in the way of the others.</p>
 <p>Choose a letter under <b>Trajectory</b> and press <b>Track trajectory</b>.

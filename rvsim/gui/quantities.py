@@ -72,4 +72,4 @@ def without_unit(text: str, suffix: str) -> str:
     if not unit or not bare.endswith(unit):
         return bare
     shorter = bare.removesuffix(unit)
-    return bare if shorter[-1:].isalpha() else shorter.strip()
+    return bare if unit[0].isalpha() and shorter[-1:].isalpha() else shorter.strip()

@@ -9,7 +9,7 @@ from PySide6.QtGui import QKeyEvent, QValidator, QWheelEvent
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QWidget
 
 from rvsim.errors import ExpressionError
-from rvsim.expressions import evaluate
+from rvsim.expressions import evaluate_in
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number, without_unit
 
@@ -115,7 +115,7 @@ class QuantityBox(QDoubleSpinBox):
         if self._is_untouched(bare):
             return self.value()
         try:
-            return evaluate(bare)
+            return self._evaluated(bare)
         except ExpressionError:
             return self.value()
 
@@ -123,7 +123,7 @@ class QuantityBox(QDoubleSpinBox):
         """Anything may be typed; only a number within the limits is taken."""
         bare = self._bare(text)
         try:
-            acceptable = self._is_untouched(bare) or not self._problem(evaluate(bare))
+            acceptable = self._is_untouched(bare) or not self._problem(self._evaluated(bare))
         except ExpressionError:
             acceptable = False
         state = QValidator.State.Acceptable if acceptable else QValidator.State.Intermediate
@@ -132,13 +132,17 @@ class QuantityBox(QDoubleSpinBox):
     def fixup(self, text: str) -> str:
         """Asked for when what stands there cannot be taken: say why, and go back to the last value."""
         try:
-            sentence = self._problem(evaluate(self._bare(text)))
+            sentence = self._problem(self._evaluated(self._bare(text)))
         except ExpressionError as problem:
             sentence = f"{self._title}: {problem}"
         self._show()
         if sentence:
             self.refused.emit(sentence)
         return self.textFromValue(self.value())
+
+    def _evaluated(self, bare: str) -> float:
+        """The value in the shown unit; another unit of the same kind may stand behind."""
+        return evaluate_in(self.suffix().strip(), bare)
 
     def _is_untouched(self, bare: str) -> bool:
         """Whether nobody has typed since the text was shown: then the exact value behind the rounded text counts."""

@@ -130,6 +130,10 @@ def test_the_tooltip_has_the_digits_that_the_text_has_not(box):
         ("-sqrt(2)/2", -math.sqrt(2) / 2),
         ("-degrees(pi/4)", -45.0),
         ("-30°", -30.0),
+        ("-pi/4 rad", -45.0),
+        ("-0.5rad", -math.degrees(0.5)),
+        ("-45deg", -45.0),
+        ("-pi/4 rad°", -45.0),
         (" \u2212 30 ° ", -30.0),
         ("-٣٠", -30.0),
         ("-۳۰", -30.0),
@@ -145,7 +149,25 @@ def test_numbers_and_expressions_are_taken(box, qtbot, text, value_deg):
     assert heard.refusals == []
 
 
-@pytest.mark.parametrize("text", ["", "hello", "1/0", "__import__('os')", "nan", "1e400", "(3", "3 mm"])
+@pytest.mark.parametrize(
+    ("shown", "text", "metres"),
+    [
+        ("mm", "12 cm", 0.12),
+        ("mm", "0.3 m", 0.3),
+        ("mm", "0.3 m mm", 0.3),
+        ("mm", "300", 0.3),
+        ("m", "300 mm", 0.3),
+        ("m", "300 mm m", 0.3),
+        ("m", "0,3", 0.3),
+    ],
+)
+def test_a_length_may_say_its_own_unit(free, preferences, qtbot, shown, text, metres):
+    preferences.set("length_unit", shown)
+    enter(free, qtbot, text)
+    assert free.quantity == pytest.approx(metres, abs=1e-12)
+
+
+@pytest.mark.parametrize("text", ["", "hello", "five rad", "1/0", "__import__('os')", "nan", "1e400", "(3", "3 mm"])
 def test_what_is_no_number_is_refused_once_with_a_sentence_and_changes_nothing(box, qtbot, text):
     before = box.quantity
     heard = Heard(box)
@@ -244,7 +266,7 @@ def test_the_same_text_in_another_unit_means_another_quantity(free, qtbot, prefe
     enter(free, qtbot, "0.35 m")
     assert free.quantity == pytest.approx(0.35)
     enter(free, qtbot, "400 mm")
-    assert free.quantity == pytest.approx(0.35), "millimetres are not metres"
+    assert free.quantity == pytest.approx(0.4), "millimetres stay millimetres"
 
 
 def test_set_value_is_typing_for_programs(box):

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from rvsim.errors import ExpressionError
-from rvsim.expressions import evaluate
+from rvsim.expressions import evaluate_in
 from rvsim.gui.panels.matrices import subscript
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import (
@@ -84,7 +84,7 @@ def typed(robot: Robot, joint: int, key: DHKey, text: str, preferences: Preferen
     if bare.lower() in _NONE:
         return _no_limit(title, key)
     try:
-        value = evaluate(bare) / shown.factor
+        value = evaluate_in(shown.suffix.strip(), bare) / shown.factor
     except ExpressionError as problem:
         return Typed(problem=f"{title} stays as it was: {problem}")
     if text.strip() == edit_text(robot, joint, key, preferences):
