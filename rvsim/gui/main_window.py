@@ -13,6 +13,7 @@ from rvsim.gui.commands import Commands
 from rvsim.gui.gizmo_drag import GizmoDrag
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.dh_table import DHTablePanel
+from rvsim.gui.panels.how import HowPanel
 from rvsim.gui.panels.inverse import InversePanel
 from rvsim.gui.panels.joints import JointsPanel
 from rvsim.gui.panels.laboratory import LaboratoryPanel
@@ -94,11 +95,12 @@ class MainWindow(QMainWindow):
         docks = [
             self._add_dock("path_dock", "Path", PathPanel(*arguments, self.tracker), right),
             self._add_inverse(right),
+            self._add_dock("how_dock", "How", HowPanel(*arguments), right),
             self._add_laboratory(right),
             self._add_dock("tool_dock", "Tool", ToolPanel(*arguments), right),
             self._add_dock("matrices_dock", "Matrices", MatricesPanel(*arguments), right),
             self._add_dock("points_dock", "Points", PointsPanel(*arguments), right),
-            self._add_dock("dh_dock", "DH table", DHTablePanel(*arguments), right),
+            self._add_dock("dh_dock", "DH", DHTablePanel(*arguments), right),
         ]
         for dock in docks[1:]:
             self.tabifyDockWidget(docks[0], dock)
@@ -127,7 +129,7 @@ class MainWindow(QMainWindow):
         self.laboratory = LaboratoryPanel(self.session, self.preferences)
         self.laboratory_scene = LaboratoryScene(self.laboratory, self.session, self.stage, self.preferences)
         self.laboratory.set_seen(False)
-        dock = self._add_dock("lab_dock", "IK lab", self.laboratory, area)
+        dock = self._add_dock("lab_dock", "Lab", self.laboratory, area)
         dock.visibilityChanged.connect(self.laboratory.set_seen)
         return dock
 
