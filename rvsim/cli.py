@@ -21,13 +21,13 @@ import numpy as np
 
 from rvsim import __version__
 from rvsim.errors import RvsimError
-from rvsim.expressions import evaluate
+from rvsim.expressions import evaluate_in
 from rvsim.files import load_robot, robot_names
 from rvsim.kinematics import forward_kinematics, jacobian
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rotation_from_rpy, transform
-from rvsim.units import metres_from_millimetres, radians_from_degrees
+from rvsim.units import radians_from_degrees
 
 if TYPE_CHECKING:
     from rvsim.kinematics import InverseResult
@@ -37,6 +37,9 @@ DONE, FAILED, BAD_INPUT = 0, 1, 2
 
 # A value may begin with a minus sign; written with "=" it is not taken for an option.
 _VECTOR_OPTIONS = ("--deg", "--near-deg", "--xyz-mm", "--rpy-deg", "--from-mm", "--to-mm", "--height-mm")
+_MM = "[mm; units for an arm whose lengths have none]"
+_JOINTS = f'degrees, for a prismatic joint {_MM}; or with the unit behind: "pi/4 rad, 12 cm"'
+_INDEX = "An index in JSON and CSV counts from 0; sentences count points from 1."
 _PANELS = ("path", "tool", "matrices", "points", "dh")
 _SEPARATOR = re.compile(r"[,;](?![^()]*\))")
 
@@ -92,7 +95,7 @@ def _add_window_options(parser: argparse.ArgumentParser) -> None:
     window.add_argument("--robot", metavar="ARM", help="the arm to begin with")
     window.add_argument("--renderer", choices=("auto", "gl", "painter"), help="who draws the scene")
     window.add_argument("--theme", choices=("light", "dark"))
-    window.add_argument("--screenshot", metavar="FILE.png", help="open, draw, save, leave")
+    window.add_argument("--screenshot", type=_output, metavar="FILE.png", help="open, draw, save, leave")
     window.add_argument("--size", type=_size, metavar="1366x768", help="of the window")
     window.add_argument("--state", default="home", metavar="home|line|PATH", help="what the screenshot shows")
     window.add_argument("--panel", choices=_PANELS, default="path", help="the panel that the screenshot shows")
@@ -105,12 +108,12 @@ def _add_arm(parser: argparse.ArgumentParser) -> None:
 
 def _add_arm_and_joints(parser: argparse.ArgumentParser) -> None:
     _add_arm(parser)
-    parser.add_argument("--deg", required=True, metavar='"30,40,…"', help="joints: degrees, mm for a prismatic one")
+    parser.add_argument("--deg", required=True, metavar='"30,40,…"', help=f"joints: {_JOINTS}")
 
 
 def _add_pose_options(parser: argparse.ArgumentParser) -> None:
     _add_arm(parser)
-    parser.add_argument("--xyz-mm", required=True, metavar='"x,y,z"', help="where the tool should be")
+    parser.add_argument("--xyz-mm", required=True, metavar='"x,y,z"', help=f"where the tool should be {_MM}")
     parser.add_argument(
         "--rpy-deg", metavar='"roll,pitch,yaw"', help="how it should be turned: Rz(yaw) Ry(pitch) Rx(roll)"
     )
@@ -119,21 +122,22 @@ def _add_pose_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_near(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--near-deg", metavar='"0,0,…"', help="where the joints are; home if not given")
+    parser.add_argument("--near-deg", metavar='"0,0,…"', help=f"where the joints are; home if not given: {_JOINTS}")
 
 
 def _add_track_options(parser: argparse.ArgumentParser) -> None:
     _add_arm(parser)
     parser.add_argument("--path", default="line", metavar="NAME|FILE.csv", help="line, letter-board, ellipse, …")
-    parser.add_argument("--from-mm", metavar='"x,y,z"', help="where the line starts")
-    parser.add_argument("--to-mm", metavar='"x,y,z"', help="where the line ends")
+    parser.add_argument("--from-mm", metavar='"x,y,z"', help=f"where the line starts {_MM}")
+    parser.add_argument("--to-mm", metavar='"x,y,z"', help=f"where the line ends {_MM}")
     parser.add_argument("--samples", type=_samples, help="the number of points")
     parser.add_argument("--height-mm", metavar="z", help="of the letter divided by 40")
     parser.add_argument("--orientation", choices=("down", "free", "keep", "source"), help="of the tool")
     _add_near(parser)
     parser.add_argument("--ignore-limits", action="store_true", help="leave the joint limits out of account")
-    parser.add_argument("--csv", metavar="FILE", help="write the joints, a row a point")
-    parser.add_argument("--png", metavar="FILE", help="draw the arm on its path")
+    parser.add_argument("--csv", type=_output, metavar="FILE", help="write the joints, a row a point")
+    parser.add_argument("--png", type=_output, metavar="FILE", help="draw the arm on its path")
+    parser.epilog = _INDEX
 
 
 def _no_options(_parser: argparse.ArgumentParser) -> None:
@@ -164,27 +168,41 @@ def _samples(text: str) -> int:
     return int(text)
 
 
+def _output(text: str) -> str:
+    """A file to be written: its folder must be there, a mistyped one is not made in silence."""
+    folder = Path(text).parent
+    if not folder.is_dir():
+        raise argparse.ArgumentTypeError(f"there is no folder “{folder}” to write “{Path(text).name}” into")
+    return text
+
+
 # --- values ------------------------------------------------------------------------------------------------------
 
 
-def _numbers(option: str, text: str, names: Sequence[str]) -> FloatArray:
-    """As many numbers or expressions, separated by commas (or semicolons), as there are names."""
+def _numbers(option: str, text: str, names: Sequence[str], units: Sequence[str]) -> FloatArray:
+    """As many numbers or expressions, separated by commas (or semicolons), as there are names; each in its unit."""
     parts = _SEPARATOR.split(text) if ";" not in text else text.split(";")
     if len(parts) != len(names):
         raise InputError(
             f"{option} needs {len(names)} values ({', '.join(names)}), separated by commas; found {len(parts)}."
         )
-    return np.array([evaluate(part) for part in parts])
+    return np.array([evaluate_in(unit, part) for unit, part in zip(units, parts, strict=True)])
 
 
 def _joints(robot: Robot, option: str, text: str) -> FloatArray:
-    """q (n,) of typed degrees and millimetres."""
-    values = _numbers(option, text, robot.joint_names)
-    return np.where(robot.is_revolute, radians_from_degrees(values), metres_from_millimetres(values))
+    """q (n,) of typed degrees and millimetres (units)."""
+    from rvsim.lab.tables import joint_units, shown_factors
+
+    return _numbers(option, text, robot.joint_names, joint_units(robot)) / shown_factors(robot)
 
 
-def _place(option: str, text: str | None) -> FloatArray | None:
-    return None if text is None else metres_from_millimetres(_numbers(option, text, ("x", "y", "z")))
+def _lengths(robot: Robot, option: str, text: str | None, names: Sequence[str]) -> FloatArray | None:
+    """Typed millimetres (units) in metres, one a name; None where nothing was typed."""
+    from rvsim.lab.tables import length_unit, shown_length
+
+    if text is None:
+        return None
+    return _numbers(option, text, names, [length_unit(robot)] * len(names)) / shown_length(robot, 1.0)
 
 
 # --- printing ----------------------------------------------------------------------------------------------------
@@ -251,7 +269,7 @@ def _robots(options: argparse.Namespace) -> int:
 
 
 def _robot_record(robot: Robot) -> dict[str, Any]:
-    from rvsim.lab.tables import shown_joints
+    from rvsim.lab.tables import length_unit, shown_joints
 
     return {
         "name": robot.name,
@@ -262,6 +280,7 @@ def _robot_record(robot: Robot) -> dict[str, Any]:
         "joint_types": robot.joint_types,
         "limits": shown_joints(robot, robot.limits.T).T,
         "home": shown_joints(robot, robot.home),
+        "length_unit": length_unit(robot),
         "source": robot.source,
     }
 
@@ -272,18 +291,20 @@ def _fk(options: argparse.Namespace) -> int:
     robot = load_robot(options.arm)
     q = _joints(robot, "--deg", options.deg)
     T = forward_kinematics(robot, q)
-    pose, outside = pose_record(T), _outside(robot, q)
+    pose, outside = pose_record(robot, T), _outside(robot, q)
     record = {"robot": robot.name, **pose, "T_base_tool": T, "outside_limits": outside}
-    text = f"{_place_text(robot, pose['xyz_mm'])}\nroll, pitch, yaw: ({_row(pose['rpy_deg'])})°"
+    text = f"{_place_text(robot, T)}\nroll, pitch, yaw: ({_row(pose['rpy_deg'])})°"
     if outside:
         text += f"\nOutside its limits: {', '.join(outside)}."
     _print(options, record, text)
     return DONE
 
 
-def _place_text(robot: Robot, xyz_mm: FloatArray) -> str:
-    """An arm whose source gives lengths without a unit counts 1 unit as 1000 mm."""
-    return f"({_row(xyz_mm / 1e3, 3)}) units" if robot.length_unit == "unit" else f"({_row(xyz_mm)}) mm"
+def _place_text(robot: Robot, T: FloatArray) -> str:
+    from rvsim.lab.tables import length_unit, shown_length
+
+    place = shown_length(robot, T[:3, 3])
+    return f"({_row(place)}) mm" if length_unit(robot) == "mm" else f"({_row(place, 3)}) units"
 
 
 def _outside(robot: Robot, q: FloatArray) -> list[str]:
@@ -296,15 +317,17 @@ def _jacobian(options: argparse.Namespace) -> int:
     robot = load_robot(options.arm)
     J = jacobian(robot, _joints(robot, "--deg", options.deg))
     sigma = np.linalg.svd(J, compute_uv=False)
+    rounded = np.round(J, 5) + 0.0  # no −0.00000
     rows = (
-        f"{name:3} {'  '.join(f'{value:9.5f}' for value in row + 0.0)}" for name, row in zip(_TWIST, J, strict=True)
+        f"{name:3} {'  '.join(f'{value:9.5f}' for value in row)}" for name, row in zip(_TWIST, rounded, strict=True)
     )
-    header = "linear rows in m/rad (m/m), angular rows in rad/rad; base axes, at the tool origin"
-    text = "\n".join([header, *rows, f"smallest singular value {sigma[-1]:.3e}"])
-    _print(options, {"robot": robot.name, "J": J, "sigma_min": sigma[-1]}, text)
+    length = "m" if robot.length_unit == "millimetre" else "unit"
+    text = "\n".join([_JACOBIAN_HEADER.format(length), *rows, f"smallest singular value {sigma[-1]:.3e}"])
+    _print(options, {"robot": robot.name, "J": J + 0.0, "sigma_min": sigma[-1]}, text)
     return DONE
 
 
+_JACOBIAN_HEADER = "linear rows in {0}/rad ({0}/{0}), angular rows in rad/rad (rad/{0}); base axes, at the tool origin"
 _TWIST = ("vx", "vy", "vz", "wx", "wy", "wz")
 
 
@@ -318,9 +341,10 @@ def _ik(options: argparse.Namespace) -> int:
         task = next((name for name in inverse_tasks(robot) if name in _PLACE_TASKS), None)
         if task is None:
             raise InputError(f"{robot.title} needs an orientation as well: --rpy-deg roll,pitch,yaw.")
-    rpy_deg = _numbers("--rpy-deg", options.rpy_deg or "0,0,0", ("roll", "pitch", "yaw"))
-    xyz_mm = _numbers("--xyz-mm", options.xyz_mm, ("x", "y", "z"))
-    T = transform(rotation_from_rpy(radians_from_degrees(rpy_deg)), metres_from_millimetres(xyz_mm))
+    rpy_deg = _numbers("--rpy-deg", options.rpy_deg or "0,0,0", ("roll", "pitch", "yaw"), 3 * ["deg"])
+    place = _lengths(robot, "--xyz-mm", options.xyz_mm, "xyz")
+    assert place is not None  # the option is required
+    T = transform(rotation_from_rpy(radians_from_degrees(rpy_deg)), place)
     result = inverse_kinematics(robot, T, task=task, near=_near(robot, options))
     _print(options, inverse_record(robot, result), _inverse_text(robot, result))
     return DONE if result.failure is None else FAILED
@@ -352,17 +376,16 @@ def _track(options: argparse.Namespace) -> int:
 
     robot = load_robot(options.arm)
     near = _near(robot, options)
-    height = {} if options.height_mm is None else {"height": metres_from_millimetres(evaluate(options.height_mm))}
-    start, end = _place("--from-mm", options.from_mm), _place("--to-mm", options.to_mm)
+    height = _lengths(robot, "--height-mm", options.height_mm, "z")
     path = named_path(
         options.path,
         robot,
         samples=options.samples,
         orientation=options.orientation,
-        start=start,
-        end=end,
+        start=_lengths(robot, "--from-mm", options.from_mm, "xyz"),
+        end=_lengths(robot, "--to-mm", options.to_mm, "xyz"),
         q=near,
-        **height,
+        **({} if height is None else {"height": float(height[0])}),
     )
     tracking = track(robot, path, near=near, ignore_limits=options.ignore_limits)
     if options.csv:

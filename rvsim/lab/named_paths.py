@@ -20,6 +20,7 @@ from rvsim.motion import Path, line_path
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.edits import original_name
+from rvsim.units import millimetres_from_metres
 
 
 class _Wish(NamedTuple):
@@ -185,7 +186,7 @@ def named_path(
     end: ArrayLike | None = None,
     q: ArrayLike | None = None,
 ) -> Path:
-    """A path by its name, or through the points of a CSV file if the name ends in ".csv".
+    """A path by its name, or through the points of a CSV file (mm, or units as the arm has) if it ends in ".csv".
 
     Args:
         samples: the number of points; None for the source's own. A file keeps its points.
@@ -201,7 +202,7 @@ def named_path(
         OSError: the file cannot be read.
     """
     if name.lower().endswith(".csv"):
-        return oriented(robot, _from_file(name), _or_own(orientation, "free"), None, q)
+        return oriented(robot, _from_file(name, robot), _or_own(orientation, "free"), None, q)
     entry = path_entry(name)
     points = entry.draw(_Wish(robot, samples, height, start, end))
     path = Path(entry.name, points, title=entry.title, notes=entry.citation)
@@ -224,6 +225,8 @@ def _own_orientation(entry: NamedPath, robot: Robot) -> PathOrientation:
     return "source" if entry.arms else line_presets(robot)[0].orientation
 
 
-def _from_file(name: str) -> Path:
+def _from_file(name: str, robot: Robot) -> Path:
+    """A file's numbers are millimetres, but units for an arm whose lengths have no other."""
     path = read_path(name)
-    return replace(path, title=FilePath(name).name, notes="Read from a file.")
+    points = path.points if robot.length_unit == "millimetre" else millimetres_from_metres(path.points)
+    return replace(path, points=points, title=FilePath(name).name, notes="Read from a file.")

@@ -1,8 +1,12 @@
-"""Points from a table: a CSV file with x, y, z in millimetres, with or without a header, as spreadsheets write it."""
+"""Points from a table: a CSV file with x, y, z in millimetres, with or without a header, as spreadsheets write it.
+
+`named_path` takes the same numbers as units for an arm whose lengths have no other.
+"""
 
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Sequence
 from pathlib import Path as FilePath
 from typing import NamedTuple
@@ -15,6 +19,7 @@ from rvsim.units import metres_from_millimetres
 _COLUMNS = ("x", "y", "z")
 _LARGEST_BYTES = 20_000_000
 _DELIMITERS = ";\t,"
+_COLUMN_UNIT = re.compile(r"(\[(mm|units?)\]|\((mm|units?)\)|_(mm|unit))$")
 
 
 class _Row(NamedTuple):
@@ -88,7 +93,7 @@ def _header(path: FilePath, row: _Row) -> tuple[int, ...] | None:
 
 def _plain(cell: str) -> str:
     """A column's name without its unit."""
-    return cell.lower().removesuffix("[mm]").removesuffix("(mm)").removesuffix("_mm").strip()
+    return _COLUMN_UNIT.sub("", cell.lower()).strip()
 
 
 def _is_number(cell: str) -> bool:

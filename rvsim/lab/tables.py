@@ -1,4 +1,7 @@
-"""Results as records and tables for programs: degrees and millimetres, and no number that is not finite."""
+"""Results as records and tables for programs: degrees and millimetres, and no number that is not finite.
+
+The lengths of an arm whose source gives them no unit are in its own unit.
+"""
 
 from __future__ import annotations
 
@@ -20,30 +23,49 @@ from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 Record = dict[str, Any]
 
-_DEGREES_IN_A_RADIAN = degrees_from_radians(1.0)
-_MILLIMETRES_IN_A_METRE = millimetres_from_metres(1.0)
+_FACTORS = {"deg": degrees_from_radians(1.0), "mm": millimetres_from_metres(1.0), "unit": 1.0}
+
+
+def length_unit(robot: Robot) -> str:
+    """What its lengths are shown in: "mm", or "unit" where its source gives them none."""
+    return "unit" if robot.length_unit == "unit" else "mm"
+
+
+def shown_length(robot: Robot, length: ArrayLike) -> FloatArray:
+    """Lengths [m] in the arm's `length_unit`."""
+    return np.asarray(np.asarray(length, dtype=np.float64) * _FACTORS[length_unit(robot)])
+
+
+def joint_units(robot: Robot) -> tuple[str, ...]:
+    """What each joint is shown in: "deg", or the unit of length for a prismatic one."""
+    return tuple("deg" if joint.revolute else length_unit(robot) for joint in robot.joints)
 
 
 def shown_factors(robot: Robot) -> FloatArray:
-    """(n,) from q [rad, m] to degrees or millimetres."""
-    return np.where(robot.is_revolute, _DEGREES_IN_A_RADIAN, _MILLIMETRES_IN_A_METRE)
+    """(n,) from q [rad, m] to the `joint_units`."""
+    return np.array([_FACTORS[unit] for unit in joint_units(robot)])
 
 
 def shown_joints(robot: Robot, q: ArrayLike) -> FloatArray:
-    """q (..., n) in degrees, millimetres for a prismatic joint."""
+    """q (..., n) in the `joint_units`."""
     return np.asarray(np.asarray(q, dtype=np.float64) * shown_factors(robot))
 
 
 def tracking_record(tracking: Tracking) -> Record:
-    """The outcome of a tracking, as `rvsim track --json` prints it."""
+    """The outcome of a tracking, as `rvsim track --json` prints it; an index counts from 0.
+
+    An arm without a unit of length has "rms_unit" and "max_unit" as well; its "…_mm" count a unit as 1000 mm.
+    """
+    deviations = {"rms": tracking.rms, "max": tracking.max_deviation}
+    own = {f"{name}_unit": value for name, value in deviations.items() if length_unit(tracking.robot) == "unit"}
     return {
         "points": tracking.samples,
         "reached": tracking.reached_count,
         "unreached": [_unreached_record(tracking.robot, point) for point in tracking.unreached],
-        "rms_mm": _millimetres(tracking.rms),
-        "max_mm": _millimetres(tracking.max_deviation),
+        **{f"{name}_mm": _millimetres(value) for name, value in deviations.items()},
         "jumps": len(tracking.jumps),
         "ik_ms": 1e3 * tracking.solve_seconds,
+        **own,
     }
 
 
@@ -56,27 +78,32 @@ def inverse_record(robot: Robot, result: InverseResult) -> Record:
     }
 
 
-def pose_record(T: FloatArray) -> Record:
-    """Place and orientation of a pose (4, 4); the rotation is Rz(yaw) Ry(pitch) Rx(roll)."""
+def pose_record(robot: Robot, T: FloatArray) -> Record:
+    """Place ("xyz_mm" or "xyz_unit") and orientation of a pose (4, 4); the rotation is Rz(yaw) Ry(pitch) Rx(roll)."""
     rpy = rpy_from_rotation(T[:3, :3])
-    return {"xyz_mm": millimetres_from_metres(T[:3, 3]), "rpy_deg": degrees_from_radians(rpy)}
+    return {f"xyz_{length_unit(robot)}": shown_length(robot, T[:3, 3]), "rpy_deg": degrees_from_radians(rpy)}
 
 
 def tracking_csv(tracking: Tracking) -> str:
-    """One row a point: where the tool should be, the joints, where it is; empty cells where it was not reached."""
-    joints = [f"{_column(joint.name)}_{'deg' if joint.revolute else 'mm'}" for joint in tracking.robot.joints]
-    header = ["index", "x_mm", "y_mm", "z_mm", "reached", *joints, "x_actual_mm", "y_actual_mm", "z_actual_mm"]
+    """One row a point: where the tool should be, the joints, where it is; empty cells where it was not reached.
+
+    The index counts from 0, and each column's name ends in its unit.
+    """
+    robot, unit = tracking.robot, length_unit(tracking.robot)
+    joints = [f"{_column(name)}_{shown}" for name, shown in zip(robot.joint_names, joint_units(robot), strict=True)]
+    places = [f"{axis}_{unit}" for axis in ("x", "y", "z", "x_actual", "y_actual", "z_actual")]
+    header = ["index", *places[:3], "reached", *joints, *places[3:], f"deviation_{unit}"]
     rows = zip(
-        millimetres_from_metres(tracking.path.points),
+        shown_length(robot, tracking.path.points),
         tracking.reached,
-        shown_joints(tracking.robot, tracking.q),
-        millimetres_from_metres(tracking.actual),
-        millimetres_from_metres(tracking.deviation),
+        shown_joints(robot, tracking.q),
+        shown_length(robot, tracking.actual),
+        shown_length(robot, tracking.deviation),
         strict=True,
     )
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*header, "deviation_mm"])
+    writer.writerow(header)
     for index, (point, reached, q, actual, deviation) in enumerate(rows):
         writer.writerow([index, *_cells(point), int(reached), *_cells(q), *_cells(actual), *_cells([deviation])])
     return text.getvalue()
@@ -106,16 +133,17 @@ def _branch_record(robot: Robot, branch: Branch) -> Record:
 
 
 def _failure_record(robot: Robot, failure: Failure) -> Record:
-    nearest = {"q": shown_joints(robot, failure.nearest_q), **pose_record(failure.nearest_T)}
+    nearest = {"q": shown_joints(robot, failure.nearest_q), **pose_record(robot, failure.nearest_T)}
     return {"kind": failure.kind, "reason": failure.reason, "joint": failure.joint, "nearest": nearest}
 
 
 def _unreached_record(robot: Robot, point: Unreached) -> Record:
-    value = limit = None
+    value = limit = unit = None
     if point.joint is not None and point.value is not None and point.limit is not None:
-        factor = float(shown_factors(robot)[robot.joint_names.index(point.joint)])
-        value, limit = point.value * factor, point.limit * factor
-    return {"index": point.index, "kind": point.kind, "joint": point.joint, "value": value, "limit": limit}
+        unit = joint_units(robot)[robot.joint_names.index(point.joint)]
+        value, limit = point.value * _FACTORS[unit], point.limit * _FACTORS[unit]
+    joint = {"joint": point.joint, "value": value, "limit": limit, "unit": unit}
+    return {"index": point.index, "kind": point.kind, **joint}
 
 
 def _millimetres(length: float | None) -> float | None:

@@ -40,8 +40,30 @@ def test_the_pose_of_source_000s_worked_example(capsys: Capture) -> None:
     assert run(capsys, "fk", "rv-m1", "--deg", "30,40,-50,20,60").startswith("(363.7, 210.0, 297.4) mm\n")
 
 
-def test_an_arm_without_a_unit_of_length_is_shown_in_units(capsys: Capture) -> None:
-    assert run(capsys, "fk", "rrrp", "--deg", "0,0,0,1000").startswith("(5.000, 4.000, 4.000) units\n")
+def test_an_arm_without_a_unit_of_length_is_asked_and_shown_in_units(capsys: Capture, tmp_path: Path) -> None:
+    assert run(capsys, "fk", "rrrp", "--deg", "0,0,0,1").startswith("(5.000, 4.000, 4.000) units\n")
+    assert run_json(capsys, "fk", "rrrp", "--deg", "0,0,0,1 unit")["xyz_unit"] == pytest.approx([5, 4, 4])
+    assert "unit/rad" in run(capsys, "jacobian", "rrrp", "--deg", "0,0,0,1")
+    branch = run_json(capsys, "ik", "rrrp", "--xyz-mm", "5,4,4", "--near-deg", "0,0,0,1")["branches"][0]
+    assert branch["q"][3] == pytest.approx(1.0, abs=1e-9)
+    table = tmp_path / "units.csv"
+    line = ("--from-mm", "4.8,3.2,4.5", "--to-mm", "4.8,20,4.5", "--samples", "3", "--csv", str(table))
+    record = run_json(capsys, "track", "rrrp", *line)
+    assert {"joint": "l6", "limit": 4.0, "unit": "unit"}.items() <= record["unreached"][0].items()
+    assert record["rms_unit"] == pytest.approx(record["rms_mm"] / 1e3)
+    assert table.read_text(encoding="utf-8").startswith("index,x_unit,y_unit,z_unit,reached,")
+    assert run_json(capsys, "track", "rrrp", "--path", str(table))["reached"] == 1
+    assert "wanted is a length without a unit" in run(capsys, "fk", "rrrp", "--deg", "0,0,0,5 mm", status=BAD_INPUT)
+
+
+def test_a_typed_value_may_say_its_unit(capsys: Capture) -> None:
+    plain = run(capsys, "fk", "scara", "--deg", "45,20,105,-45")
+    assert run(capsys, "fk", "scara", "--deg", "pi/4 rad, 20°, 10.5 cm, -45deg") == plain
+
+
+def test_a_jacobian_shows_no_negative_zero(capsys: Capture) -> None:
+    for robot in ("rv-m1", "ur5e", "planar"):
+        assert "-0.00000" not in run(capsys, "jacobian", robot, "--deg", ",".join(["0"] * load_robot(robot).dof))
 
 
 def test_joints_are_degrees_and_millimetres_and_may_be_expressions_and_begin_with_a_minus(capsys: Capture) -> None:
@@ -100,6 +122,7 @@ def test_tracking_as_json_has_exactly_the_documented_keys(capsys: Capture) -> No
         "elbow",
         pytest.approx(-110),
     )
+    assert first["unit"] == "deg"
     assert first["value"] == pytest.approx(-156.744, abs=1e-3)
     assert record["rms_mm"] < 1e-12
     assert record["ik_ms"] > 0.0
@@ -131,7 +154,7 @@ def test_nothing_reached_is_a_failure_told_without_numbers_that_do_not_exist(cap
 
 
 def test_tracking_writes_a_table_that_can_be_read_back(capsys: Capture, tmp_path: Path) -> None:
-    table = tmp_path / "new folder" / "line.csv"
+    table = tmp_path / "line.csv"
     assert "Written:" in run(capsys, "track", "rv-m1", *LINE_000, "--csv", str(table))
     rows = list(csv.DictReader(table.read_text(encoding="utf-8").splitlines()))
     assert [row["reached"] for row in rows] == list("00000011110")
@@ -169,6 +192,12 @@ def test_tracking_draws_a_picture(capsys: Capture, tmp_path: Path, qapp: object)
         (["track", "rv-m1", "--orientation", "up"], "Argument --orientation: invalid choice: 'up'"),
         (["track", "rv-m1", "--from-mm", "1,2"], "--from-mm needs 3 values (x, y, z)"),
         (["jump"], "Argument COMMAND: invalid choice: 'jump'"),
+        (
+            ["track", "rv-m1", "--csv", "no such folder/a.csv"],
+            "there is no folder “no such folder” to write “a.csv” into",
+        ),
+        (["track", "rv-m1", "--png", "no such folder/a.png"], "there is no folder “no such folder”"),
+        (["--screenshot", "no such folder/a.png"], "there is no folder “no such folder”"),
         (["--size", "big", "--screenshot", "x.png"], "“big” is no size; write it like 1366x768"),
         (["--robot", "hal"], "No robot 'hal'"),
     ],
@@ -185,6 +214,13 @@ def test_a_file_of_points_with_a_mistake_is_told_with_its_place(capsys: Capture,
     file.write_text("300,0,200\n300,zero,200\n", encoding="utf-8")
     problem = run(capsys, "track", "rv-m1", "--path", str(file), status=BAD_INPUT)
     assert "row 2, column 2 (y): found “zero”, expected a number in millimetres." in problem
+
+
+def test_a_table_can_be_read_by_whom_the_system_lets_read_new_files(capsys: Capture, tmp_path: Path) -> None:
+    table, other = tmp_path / "line.csv", tmp_path / "other"
+    run(capsys, "track", "rv-m1", "--csv", str(table))
+    other.touch()
+    assert table.stat().st_mode == other.stat().st_mode
 
 
 def test_a_table_that_cannot_be_written_is_told_by_its_name(capsys: Capture, tmp_path: Path) -> None:
