@@ -17,11 +17,13 @@ from PySide6.QtWidgets import (
     QProgressBar,
     QScrollArea,
     QSizePolicy,
+    QStackedWidget,
     QVBoxLayout,
     QWidget,
 )
 
 from rvsim.experiment import Experiment
+from rvsim.gui.panels.laboratory_fields import ContentArea
 from rvsim.gui.panels.laboratory_looks import SOLVER_LOOKS, Legend
 from rvsim.gui.panels.laboratory_page import Page
 from rvsim.gui.panels.laboratory_rules import RulesChooser
@@ -43,7 +45,8 @@ if TYPE_CHECKING:
 
 _EMPTY = "Press Run: all four solvers start from the same joints, and their errors are drawn over the iterations."
 _WIDE = 680  # pixels from which the settings stand beside the results
-_SETUP_WIDTH = 330
+_LOW = 500  # pixels below which the table scrolls
+_SETUP_WIDTH = 340
 _PATIENCE_MS = 100
 _LINES = 3  # of the sentence; a longer one scrolls
 _WIDEST = 16_777_215  # Qt's largest size, which means no limit
@@ -104,10 +107,14 @@ class ContestPage(Page):
         self.busy.setTextVisible(False)
         self.busy.setFixedHeight(4)
         self.busy.setAccessibleName("The solvers are at work")
-        for widget in (self.busy, self.cancel_button):
-            policy = widget.sizePolicy()
-            policy.setRetainSizeWhenHidden(True)
-            widget.setSizePolicy(policy)
+        self.busy.setMinimumWidth(1)
+        policy = self.busy.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)
+        self.busy.setSizePolicy(policy)
+        self._run_or_cancel = QStackedWidget()
+        self._run_or_cancel.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        for offered in (self.run_button, self.cancel_button):
+            self._run_or_cancel.addWidget(offered)
         self._show_waiting(False)
 
     def _make_results(self) -> None:
@@ -133,8 +140,7 @@ class ContestPage(Page):
         for chooser in (self.target, self.start, self.rules):
             setup.addWidget(chooser)
         setup.addStretch(1)
-        self._setup: QScrollArea = scrolled(inside)
-        self._setup.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
+        self._setup = ContentArea(inside)
         left, self._results = QVBoxLayout(), QVBoxLayout()
         left.setSpacing(6)
         left.addWidget(self._setup, 1)
@@ -150,10 +156,9 @@ class ContestPage(Page):
     def _buttons(self) -> QHBoxLayout:
         row = QHBoxLayout()
         row.setSpacing(8)
-        for widget in (self.run_button, self.go_button, self.live):
+        for widget in (self._run_or_cancel, self.go_button, self.live):
             row.addWidget(widget)
         row.addStretch(1)
-        row.addWidget(self.cancel_button)
         return row
 
     def _connect(self) -> None:
@@ -188,7 +193,7 @@ class ContestPage(Page):
         self._cancelled.set()
         self._cancelled = threading.Event()
         self._worker.ask(partial(run_contest, self.trial, self._cancelled.is_set))
-        if not self._slow.isActive() and self.cancel_button.isHidden():
+        if not self._slow.isActive() and self.busy.isHidden():
             self._slow.start()
 
     def cancel(self) -> None:
@@ -211,7 +216,7 @@ class ContestPage(Page):
     def _show_waiting(self, on: bool) -> None:
         self._slow.stop()
         self.busy.setVisible(on)
-        self.cancel_button.setVisible(on)
+        self._run_or_cancel.setCurrentWidget(self.cancel_button if on else self.run_button)
 
     def _on_setup(self) -> None:
         if self.live.isChecked() and self.seen:
@@ -341,6 +346,7 @@ class ContestPage(Page):
         """Settings beside the results where there is room."""
         super().resizeEvent(event)
         wide = self.width() >= _WIDE
+        self.table.set_compact(self.height() < _LOW)
         sides, stack = QBoxLayout.Direction.LeftToRight, QBoxLayout.Direction.TopToBottom
         self._box.setDirection(sides if wide else stack)
         self._box.setSpacing(16 if wide else 6)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 from PySide6.QtCore import QPointF, QSize, Qt
@@ -91,15 +92,24 @@ def is_dark(preferences: Preferences) -> bool:
     return THEMES[preferences["theme"]].dark
 
 
-def sample_icon(look: CurveLook, dark: bool) -> QIcon:
-    """A piece of the curve with its marker."""
+@lru_cache(maxsize=32)
+def sample_icon(look: CurveLook, theme: str) -> QIcon:
+    """A piece of the curve with its marker; in a selected row in the colour of its text."""
+    dark = THEMES[theme].dark
+    icon = QIcon(_sample(look, dark))
+    selected = look._replace(light=THEMES[theme].on_accent, dark=THEMES[theme].on_accent)
+    icon.addPixmap(_sample(selected, dark), QIcon.Mode.Selected)
+    return icon
+
+
+def _sample(look: CurveLook, dark: bool) -> QPixmap:
     pixmap = QPixmap(_SAMPLE * 2)
     pixmap.setDevicePixelRatio(2.0)
     pixmap.fill(Qt.GlobalColor.transparent)
     painter = QPainter(pixmap)
     draw_sample(painter, look, dark, QPointF(0.0, _SAMPLE.height() / 2.0))
     painter.end()
-    return QIcon(pixmap)
+    return pixmap
 
 
 def draw_sample(painter: QPainter, look: CurveLook, dark: bool, left: QPointF) -> None:

@@ -18,7 +18,7 @@ from rvsim.robot.arrays import FloatArray
 _FLOOR = 1e-17  # what an error of 0 is drawn as: a logarithm needs something
 _MOST_MARKERS = 80
 _AXIS_WIDTH = 58
-_LEAST_HEIGHT = 84
+_LEAST_HEIGHT, _LIKED_HEIGHT, _TITLE_HEIGHT = 56, 88, 34
 _DIM = 70  # alpha of curves beside the lit one
 
 
@@ -34,7 +34,6 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
         self.setMenuEnabled(False)
         self.hideButtons()
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
-        self.setMinimumHeight(_LEAST_HEIGHT)
         self.setLogMode(y=True)
         self.getAxis("left").setWidth(_AXIS_WIDTH)
         self.curves = {name: self.plot(antialias=True) for name in looks}
@@ -45,7 +44,7 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
 
     def sizeHint(self) -> QSize:
         """As little as can be read; it takes what room there is."""
-        return QSize(200, _LEAST_HEIGHT)
+        return QSize(200, self.minimumHeight() + _LIKED_HEIGHT - _LEAST_HEIGHT)
 
     def set_titles(self, below: str, beside: str) -> None:
         """Name the axes."""
@@ -75,6 +74,7 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
     def dress(self) -> None:
         """The colours of the present theme."""
         theme = THEMES[self._preferences["theme"]]
+        self.setMinimumHeight(_LEAST_HEIGHT + (_TITLE_HEIGHT if self._titles[0] else 0))
         self.setBackground(theme.base)
         for side, title in zip(("bottom", "left"), self._titles, strict=True):
             axis = self.getAxis(side)

@@ -140,7 +140,7 @@ class RulesChooser(QWidget):
             grid.addWidget(self.numbers[field.name], row + 1, column, 1, 3)
         row = grid.rowCount()
         for index, switch in enumerate(self.switches.values()):
-            grid.addWidget(switch, row + index // 2, 3 * (index % 2), 1, 3)
+            grid.addWidget(switch, row + index, 0, 1, 6)
         row = grid.rowCount()
         for half, what in enumerate(("Weights, rotation x y z", "then position x y z")):
             caption = _caption(what, self.weights[3 * half])

@@ -72,7 +72,7 @@ class Chooser(QWidget):
         """Make a choice, silently."""
         select(self.choice, choice)
         self.again.setVisible(choice in _AGAIN)
-        self.again.setText(_AGAIN.get(choice, ""))
+        self.again.setText(_AGAIN.get(choice, "Another"))
         self.again.setToolTip("Draw another random pose" if choice == "random" else "Take it as it is now")
 
     def _on_again(self) -> None:

@@ -71,6 +71,7 @@ class Source002Page(Page):
         titles = ("point of the ellipse", "off by, mm")
         self.plot = LogPlot(SOURCE_002_LOOKS, titles, self._preferences)
         self.plot.setObjectName("lab_source_002_plot")
+        self.plot.setAccessibleName("How far off the arm is, over the points of the ellipse, logarithmic")
         self.plot.setMinimumHeight(180)
         self._column.insertWidget(3, self.plot, 1)
 
@@ -105,6 +106,8 @@ class Source002Page(Page):
 
 def _text(text: str) -> QLabel:
     label = QLabel(text, wordWrap=True)
-    label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
+    # A height of its own would be that of a narrow column: it depends on the width alone.
+    label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+    label.setMinimumHeight(1)
     label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return label

@@ -8,7 +8,7 @@ from PySide6.QtCore import QAbstractTableModel, QEvent, QModelIndex, QSize, Qt, 
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
-from rvsim.gui.panels.laboratory_looks import SOLVER_LOOKS, is_dark, sample_icon
+from rvsim.gui.panels.laboratory_looks import SOLVER_LOOKS, sample_icon
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, fit_height, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_scientific, length_kind
@@ -64,7 +64,7 @@ class ContestModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return LEFT if index.column() in (0, _VERDICT) else RIGHT
         if role == Qt.ItemDataRole.DecorationRole and index.column() == 0:
-            return sample_icon(SOLVER_LOOKS[outcome.solver], is_dark(self._preferences))
+            return sample_icon(SOLVER_LOOKS[outcome.solver], self._preferences["theme"])
         if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleTextRole) and self.contest:
             return verdict(self.contest.trial, outcome)
         return None
@@ -76,7 +76,7 @@ class ContestModel(QAbstractTableModel):
             SOLVER_LOOKS[outcome.solver].short,
             "✓" if result.converged else "✗",
             str(result.iterations),
-            f"{result.elapsed * 1e3:.1f}",
+            _milliseconds(result.elapsed),
             format_scientific(result.position_error * place[0]),
             format_scientific(result.rotation_error * turn[0]),
             result.reason,
@@ -102,6 +102,10 @@ class ContestModel(QAbstractTableModel):
         return {4: f"pos. {place[1]}", 5: f"rot. {turn[1]}"}.get(section, _HEADS[section])
 
 
+def _milliseconds(seconds: float) -> str:
+    return f"{seconds * 1e3:.1f}" if seconds < 0.1 else f"{seconds * 1e3:.0f}"
+
+
 class ContestTable(QTableView):
     """Shows a `ContestModel`.
 
@@ -115,6 +119,7 @@ class ContestTable(QTableView):
 
     def __init__(self, model: ContestModel, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._compact = False
         self.setObjectName("lab_table")
         self.setAccessibleName("Solvers")
         self.setModel(model)
@@ -126,7 +131,6 @@ class ContestTable(QTableView):
         self.setTabKeyNavigation(False)
         self.setMouseTracking(True)
         self.setIconSize(QSize(30, 12))
-        self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.verticalHeader().hide()
         self.verticalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         self.horizontalHeader().setHighlightSections(False)
@@ -151,7 +155,16 @@ class ContestTable(QTableView):
         header.setSectionResizeMode(0, header.sectionResizeMode(1) if roomy else stretched)
         header.setSectionResizeMode(_VERDICT, stretched)
         fit_height(self)
-        self.setMinimumHeight(self.maximumHeight())
+        bar = self.horizontalScrollBar()
+        if bar.maximum() > 0:
+            self.setMaximumHeight(self.maximumHeight() + bar.sizeHint().height())
+        self.setMinimumHeight(self.maximumHeight() // 2 if self._compact else self.maximumHeight())
+
+    def set_compact(self, compact: bool) -> None:
+        """Do with half the rows, and scroll."""
+        if compact != self._compact:
+            self._compact = compact
+            self.fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Another width: with or without the verdict."""

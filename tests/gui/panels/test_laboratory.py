@@ -5,7 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QSlider
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractSlider,
+    QAbstractSpinBox,
+    QComboBox,
+    QLabel,
+    QLineEdit,
+    QScrollBar,
+    QSlider,
+    QTableView,
+)
 from pytestqt.qtbot import QtBot
 
 from rvsim.gui.app import build_window
@@ -147,6 +157,19 @@ def test_source_002_as_printed_misses_by_431_millimetres(qtbot: QtBot, panel: La
         assert len(curve.getOriginalDataset()[0]) == 184
 
 
+def test_every_control_can_be_found_and_read_out(panel: LaboratoryPanel) -> None:
+    controls = [
+        control
+        for kind in (QAbstractButton, QAbstractSlider, QAbstractSpinBox, QComboBox, QLineEdit, QTableView)
+        for control in panel.contest.findChildren(kind)
+        if not control.objectName().startswith("qt_") and type(control) is not QAbstractButton
+    ]
+    inner = {control for control in controls if control.parent() in controls or isinstance(control, QScrollBar)}
+    for control in set(controls) - inner:
+        assert control.objectName().startswith("lab_"), control
+        assert control.accessibleName() or control.text(), control.objectName()
+
+
 # --- in the window ---------------------------------------------------------------------------------------------------
 
 
@@ -183,3 +206,14 @@ def test_the_ellipse_is_drawn_beside_the_ur5e_alone(qtbot: QtBot, window: MainWi
     qtbot.waitUntil(lambda: bool(keys(window, SOURCE_002_KEY)))
     window.session.use_robot(window.library["rv-m1"])
     qtbot.waitUntil(lambda: not keys(window, SOURCE_002_KEY))
+
+
+def test_it_fits_a_small_screen(qtbot: QtBot, window: MainWindow) -> None:
+    window.findChild(QObject, "lab_dock").raise_()
+    page = window.laboratory.contest
+    finished(qtbot, window.laboratory)
+    for part in (page.target, page.start, page.rules):
+        part.disclosure.click()
+    assert window.minimumSizeHint().width() <= 1024
+    assert window.minimumSizeHint().height() <= 600
+    assert page.rules.details.minimumSizeHint().width() <= 330
