@@ -22,7 +22,7 @@ import numpy as np
 from rvsim import __version__
 from rvsim.errors import RvsimError
 from rvsim.expressions import evaluate_in
-from rvsim.files import load_robot, robot_names
+from rvsim.files import load_robot, robot_names, user_robots
 from rvsim.kinematics import forward_kinematics, jacobian
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -92,7 +92,9 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_window_options(parser: argparse.ArgumentParser) -> None:
     window = parser.add_argument_group("the window")
-    window.add_argument("--robot", metavar="ARM", help="the arm to begin with")
+    window.add_argument(
+        "--robot", metavar="ARM", help="the arm to begin with: a name that `rvsim robots` lists, or a robot file"
+    )
     window.add_argument("--renderer", choices=("auto", "gl", "painter"), help="who draws the scene")
     window.add_argument("--theme", choices=("light", "dark"))
     window.add_argument("--screenshot", type=_output, metavar="FILE.png", help="open, draw, save, leave")
@@ -262,10 +264,18 @@ def _require_display(options: argparse.Namespace) -> None:
 
 
 def _robots(options: argparse.Namespace) -> int:
-    robots = [load_robot(name) for name in robot_names()]
-    lines = [f"{robot.name:12} {robot.dof} joints  {robot.title} ({robot.family})" for robot in robots]
+    own = user_robots()
+    robots = [*(load_robot(name) for name in robot_names()), *own.by_file.values()]
+    width = max(12, *(len(robot.name) for robot in robots))
+    lines = [f"{robot.name:{width}} {robot.dof} joints  {robot.title}{_in_brackets(robot.family)}" for robot in robots]
+    for problem in own.problems:
+        print(f"rvsim: left out: {problem}", file=sys.stderr)
     _print(options, [_robot_record(robot) for robot in robots], "\n".join(lines))
     return DONE
+
+
+def _in_brackets(text: str) -> str:
+    return f" ({text})" if text else ""
 
 
 def _robot_record(robot: Robot) -> dict[str, Any]:

@@ -8,12 +8,11 @@ from pathlib import Path
 
 
 def write_atomically(path: Path, data: bytes) -> None:
-    """Replace the file at `path` in one step; the folder is made if it is missing.
+    """Replace the file at `path` in one step; its folder must be there.
 
     Raises:
         OSError: the folder or the file cannot be written; the old file is then still there.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
     draft = path.with_name(f".{path.name}.{secrets.token_hex(4)}")  # beside it: a rename must not cross file systems
     try:
         with open(draft, "xb") as file:

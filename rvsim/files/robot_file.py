@@ -13,6 +13,7 @@ from rvsim.files.place import Place
 from rvsim.files.robot_format import ROBOT
 from rvsim.files.robot_writer import robot_text
 from rvsim.files.toml_source import read_bytes, tables_of, text_of
+from rvsim.files.user_folder import user_robot_path
 from rvsim.resources import resource
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -27,18 +28,28 @@ def robot_names() -> tuple[str, ...]:
 
 
 def load_robot(name_or_path: str | Path) -> Robot:
-    """A built-in arm by its name, in capitals or not, or the arm of a robot file by its path.
+    """A built-in arm by its name, in capitals or not, the arm of a robot file by its path, or a saved one by its name.
+
+    The files of the user's folder are looked at only when it is neither of the former.
 
     Raises:
-        UnknownRobotError: neither a built-in name nor a file that exists.
+        UnknownRobotError: neither a name nor a file that exists.
         RobotFileError: the file cannot be read or makes no arm.
     """
     if isinstance(name_or_path, str) and name_or_path.strip().lower() in robot_names():
         return _from_file(resource("robots", f"{name_or_path.strip().lower()}.toml"))
     path = Path(name_or_path)
-    if not _exists(path):
-        raise UnknownRobotError(str(name_or_path), robot_names())
-    return _from_file(path)
+    return _from_file(path) if _exists(path) else _own_by_name(str(name_or_path))
+
+
+def _own_by_name(name: str) -> Robot:
+    from rvsim.files.user_arms import user_robots  # it reads its files with this module
+
+    arms = {robot.name.lower(): robot for robot in user_robots().by_file.values()}
+    robot = arms.get(name.strip().lower())
+    if robot is None:
+        raise UnknownRobotError(name, (*robot_names(), *(arm.name for arm in arms.values())))
+    return robot
 
 
 def robot_from_bytes(data: bytes, path: str | Path) -> Robot:
@@ -53,7 +64,7 @@ def robot_from_bytes(data: bytes, path: str | Path) -> Robot:
 
 
 def save_robot(robot: Robot, path: str | Path) -> None:
-    """Write a robot file that reads back as the same arm, whole or not at all.
+    """Write a robot file that reads back as the same arm, whole or not at all; of all folders only the user's is made.
 
     Raises:
         RobotDefinitionError: the arm has values that no robot file may hold.
@@ -66,7 +77,13 @@ def save_robot(robot: Robot, path: str | Path) -> None:
         what = f"cannot be saved: {problem.where}: found {problem.found}, expected {problem.expected}."
         raise RobotDefinitionError(robot.name, what) from None
     _check_same(robot, reread)
+    _make_if_the_users(Path(path).parent)
     write_atomically(Path(path), data)
+
+
+def _make_if_the_users(folder: Path) -> None:
+    if not folder.exists() and folder == user_robot_path("").parent:
+        folder.mkdir(parents=True)
 
 
 def _check_same(robot: Robot, reread: Robot) -> None:

@@ -180,7 +180,7 @@ class Commands(QObject):
         file = ask_where_to_save(self._window, self._session.robot)
         if file is None:
             return
-        done, sentence = saved(self._session.robot, file)
+        done, sentence = saved(self._session, file)
         if done:
             self._session.say(sentence)
         else:

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rvsim.errors import RobotFileError
-from rvsim.files import load_robot, robot_names, user_robot_files
+from rvsim.files import load_robot, open_robot, robot_names, user_robots
 from rvsim.robot import Robot
 
 
 class RobotLibrary:
-    """Arms by name; a file is read when its arm is first asked for, and only then."""
+    """Arms by name: the built-in ones and those of the user's folder, each file's under a name of its own."""
 
     def __init__(self) -> None:
         self._robots: dict[str, Robot] = {name: load_robot(name) for name in robot_names()}
-        self.problems: list[str] = []
-        for file in user_robot_files():
-            try:
-                self.remember(load_robot(file))
-            except RobotFileError as problem:
-                self.problems.append(str(problem))
+        own = user_robots()
+        self.problems = own.problems
+        for robot in own.by_file.values():
+            self.remember(robot)
 
     def __getitem__(self, name: str) -> Robot:
         return self._robots[name]
@@ -40,8 +37,9 @@ class RobotLibrary:
         """Read a robot file and offer its arm.
 
         Raises:
+            UnknownRobotError: no such file.
             RobotFileError: the file makes no arm.
         """
-        robot = load_robot(path)
+        robot = open_robot(path)
         self.remember(robot)
         return robot

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
@@ -15,14 +16,21 @@ from rvsim.robot.shape import BoxShape, CapsuleShape, Shape
 
 DHKey = Literal["theta", "d", "a", "alpha", "lower", "upper", "home"]
 DH_KEYS: tuple[DHKey, ...] = get_args(DHKey)
-OWN_PREFIX = "my-"  # an edited copy of "rv-m1" is named "my-rv-m1"
+OWN_PREFIX = "my-"  # an edited copy of "rv-m1" is named "my-rv-m1", until it is saved under another name
+_COPY = re.compile(r"(?:edited )?copy of [^;]+ \(([^;()]+)\)(?:;|$)")
 _GEOMETRY = ("theta", "d", "a", "alpha")
 _EDITED = "of the link before its DH row was edited"
 
 
+def copied_source(robot: Robot) -> str:
+    """The source of a copy: whose copy it is, and where the numbers of that one are from."""
+    return f"copy of {robot.title} ({robot.name})" + (f"; {robot.source}" if robot.source else "")
+
+
 def original_name(robot: Robot) -> str:
-    """The name of the arm that this one is an edited copy of; its own name if it is none."""
-    return robot.name.removeprefix(OWN_PREFIX)
+    """The name of the arm that this one is an edited copy of, as its source says; its own name if it is none."""
+    copy = _COPY.match(robot.source)
+    return copy[1] if copy else robot.name.removeprefix(OWN_PREFIX)
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,6 +16,7 @@ import pytest
 
 from rvsim import __version__, forward_kinematics, jacobian, load_robot, robot_names
 from rvsim.cli import BAD_INPUT, DONE, FAILED, main
+from rvsim.files import save_robot, user_robot_path
 
 Capture = pytest.CaptureFixture[str]
 LINE_000 = ["--from-mm", "110,0,130", "--to-mm", "230,0,333", "--samples", "11"]
@@ -84,6 +85,16 @@ def test_all_arms_are_listed_and_a_missing_limit_is_null(capsys: Capture) -> Non
     rrrp = next(record for record in records if record["name"] == "rrrp")
     assert rrrp["limits"][0] == [None, None]
     assert len(run(capsys, "robots").splitlines()) == len(records)
+
+
+def test_saved_arms_are_listed_and_found_by_name_and_a_spoilt_file_is_told(capsys: Capture) -> None:
+    save_robot(load_robot("scara").renamed("mine", "Mine"), user_robot_path("mine"))
+    assert "Mine" in run(capsys, "robots").splitlines()[-1]
+    assert run(capsys, "fk", "mine", "--deg", "1,2,3,4") == run(capsys, "fk", "scara", "--deg", "1,2,3,4")
+    assert "al5b, " in run(capsys, "fk", "mein", "--deg", "1", status=BAD_INPUT)
+    user_robot_path("spoilt").write_text("name = 3", encoding="utf-8")
+    assert main(["robots"]) == DONE
+    assert "spoilt.toml" in capsys.readouterr().err
 
 
 def test_the_jacobian(capsys: Capture) -> None:

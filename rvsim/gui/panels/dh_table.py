@@ -224,7 +224,7 @@ class DHTablePanel(ReadOutPanel):
 
     def save_to(self, path: Path) -> None:
         """Save the arm as a robot file, or say why not."""
-        done, sentence = saved(self._session.robot, path)
+        done, sentence = saved(self._session, path)
         self._tell(sentence, "good" if done else "error")
 
     def ask_and_open(self) -> None:

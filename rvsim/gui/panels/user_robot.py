@@ -3,29 +3,41 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import count
 from pathlib import Path
 
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from rvsim.errors import RvsimError
-from rvsim.files import load_robot, save_robot, user_robot_path
+from rvsim.files import named_after, open_robot, robot_names, save_robot, user_robot_files, user_robot_path, user_robots
+from rvsim.gui.session import Session
 from rvsim.robot import Robot
-from rvsim.robot.edits import OWN_PREFIX
+from rvsim.robot.edits import OWN_PREFIX, copied_source, original_name
 
 _FILTER = "Robot files (*.toml)"
 
 
 def is_own(robot: Robot) -> bool:
     """Whether this arm is the user's own already."""
-    return robot.name.startswith(OWN_PREFIX)
+    return original_name(robot) != robot.name
 
 
 def own_copy(robot: Robot) -> Robot:
-    """The same arm as "my RV-M1", its source saying where it comes from; an own arm as it is."""
+    """The same arm as "my RV-M1", its source saying where it comes from; an own arm as it is.
+
+    Where one of that name has been saved it is "my RV-M1 (2)": a new copy hides none.
+    """
     if is_own(robot):
         return robot
-    source = f"edited copy of {robot.title}" + (f"; {robot.source}" if robot.source else "")
-    return replace(robot.renamed(f"{OWN_PREFIX}{robot.name}", f"my {short_title(robot)}"), source=source)
+    taken = {file.stem for file in user_robot_files()} | {arm.name for arm in user_robots().by_file.values()}
+    name, title = f"{OWN_PREFIX}{robot.name}", f"my {short_title(robot)}"
+    number = next(number for number in count(1) if _numbered(name, "-{}", number) not in taken)
+    copy = robot.renamed(_numbered(name, "-{}", number), _numbered(title, " ({})", number))
+    return replace(copy, source=f"edited {copied_source(robot)}")
+
+
+def _numbered(text: str, ending: str, number: int) -> str:
+    return text if number == 1 else text + ending.format(number)
 
 
 def short_title(robot: Robot) -> str:
@@ -38,7 +50,7 @@ def short_title(robot: Robot) -> str:
 
 def ask_where_to_save(parent: QWidget, robot: Robot) -> Path | None:
     """The file that the user chooses, or None; offered is the user's own folder."""
-    offered = user_robot_path(robot.title)
+    offered = _offered(robot)
     folder = offered.parent
     # The folder is made when it can be: the dialog falls back to the home folder by itself.
     try:
@@ -56,22 +68,32 @@ def ask_what_to_open(parent: QWidget, robot: Robot) -> Path | None:
     return Path(chosen) if chosen else None
 
 
-def saved(robot: Robot, path: Path) -> tuple[bool, str]:
-    """Save an arm: whether it went well, and the sentence that says so."""
+def _offered(robot: Robot) -> Path:
+    return user_robot_path(robot.title if robot.name in robot_names() else robot.name)
+
+
+def saved(session: Session, path: Path) -> tuple[bool, str]:
+    """Save the session's arm: whether it went well, and the sentence that says so.
+
+    In a file of another name the arm is named after the file, and the session goes on with that arm.
+    """
     path = path if path.suffix else path.with_suffix(".toml")
+    robot = named_after(session.robot, path)
     try:
         save_robot(robot, path)
     except RvsimError as problem:
         return False, str(problem)
     except OSError as problem:
         return False, f"Not saved: {path} cannot be written ({problem.strerror or problem})."
+    if robot is not session.robot:
+        session.edit(f"Save as {path.name}", session.experiment.with_robot(robot))
     return True, f"Saved {robot.title} as {path}."
 
 
 def opened(path: Path) -> tuple[Robot | None, str]:
     """Open a robot file: its arm, or None and the sentence that says why not."""
     try:
-        robot = load_robot(path)
+        robot = open_robot(path)
     except RvsimError as problem:
         return None, str(problem)
     return robot, f"Opened {robot.title} from {path}."

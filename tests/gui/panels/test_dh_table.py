@@ -231,12 +231,12 @@ def test_a_saved_arm_opens_as_the_same_arm(panel, tmp_path, monkeypatch, qtbot):
     file = tmp_path / "mine.toml"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(file), ""))
     qtbot.mouseClick(panel.findChild(QPushButton, "save_robot_button"), Qt.MouseButton.LeftButton)
-    assert message(panel) == f"Saved my RV-M1 as {file}."
+    assert message(panel) == f"Saved mine (my RV-M1) as {file}."
     edited = panel._session.robot
     panel.go_back()
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(file), ""))
     qtbot.mouseClick(panel.findChild(QPushButton, "open_robot_button"), Qt.MouseButton.LeftButton)
-    assert panel._session.robot.title == "my RV-M1"
+    assert (panel._session.robot.name, panel._session.robot.title) == ("mine", "mine (my RV-M1)")
     np.testing.assert_allclose(panel._session.robot.dh, edited.dh, atol=1e-15)
     assert "edited copy of Mitsubishi RV-M1" in panel._session.robot.source
 
