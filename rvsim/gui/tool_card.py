@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
+import re
+
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QLabel, QWidget
 
 from rvsim.experiment import Experiment
@@ -14,6 +16,7 @@ from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rpy_from_rotation
 
 _MARGIN = 12
+_DIGITS = re.compile(r"\d")
 _UNIT_SETTINGS = ("angle_unit", "length_unit", "extra_decimals", "theme", "presentation")
 
 
@@ -23,6 +26,7 @@ class ToolCard(QLabel):
     def __init__(self, session: Session, preferences: Preferences, stage: QWidget) -> None:
         super().__init__(stage)
         self._session, self._preferences = session, preferences
+        self._outline = ""
         self.setObjectName("tool_card")
         self.setAccessibleName("Tool pose")
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
@@ -32,12 +36,17 @@ class ToolCard(QLabel):
         self.move(_MARGIN, _MARGIN)
         self._show()
 
+    def event(self, event: QEvent) -> bool:
+        """Without the text's own belated update: it would have the scene below painted a second time."""
+        return event.type() == QEvent.Type.UpdateLater or super().event(event)
+
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         if after.q is not before.q or after.robot is not before.robot:
             self._show()
 
     def _on_preference(self, name: str) -> None:
         if name in _UNIT_SETTINGS:
+            self._outline = ""
             self._show()
 
     def _show(self) -> None:
@@ -45,8 +54,14 @@ class ToolCard(QLabel):
         T = forward_kinematics(robot, self._session.q)
         lengths = self._row(("x", "y", "z"), T[:3, 3], length_kind(robot))
         angles = self._row(("roll", "pitch", "yaw"), rpy_from_rotation(T[:3, :3]), "angle")
-        self.setText(f"<table cellspacing=0>{lengths}{angles}</table>")
-        self.adjustSize()
+        text = f"<table cellspacing=0>{lengths}{angles}</table>"
+        self.setText(text)
+        # A label of a fixed size never makes the window lay itself out anew, and measuring takes a millisecond: with
+        # digits of equal width most numbers take the room of the last ones.
+        outline = _DIGITS.sub("0", text)
+        if outline != self._outline:
+            self._outline = outline
+            self.setFixedSize(self.sizeHint())
 
     def _row(self, names: tuple[str, ...], values: FloatArray, kind: Kind) -> str:
         shown = display(kind, self._preferences)

@@ -49,7 +49,8 @@ def ghost_items(robot: Robot, ghosts: Sequence[Ghost], palette: ScenePalette, lo
     poses = [posed(robot, each) for each in T]
     pairs = list(zip(ghosts, poses, strict=True))
     items = [_outline(ghost, pose, palette) for ghost, pose in pairs if not (ghost.within or ghost.here)]
-    items += _links([pose for ghost, pose in pairs if ghost.within and not (ghost.lit or ghost.here)], palette)
+    faint = [ghost.within and not (ghost.lit or ghost.here) for ghost in ghosts]
+    items += _links(robot, T[faint], palette) if any(faint) else []
     for ghost in ghosts:
         if ghost.lit:
             key = f"{GHOST_KEY}{ghost.key}"
@@ -57,17 +58,33 @@ def ghost_items(robot: Robot, ghosts: Sequence[Ghost], palette: ScenePalette, lo
     return (*items, Labels(f"{GHOST_KEY}s.names", tuple(_names(ghosts, poses, palette))))
 
 
-def _links(poses: Sequence[Pose], palette: ScenePalette) -> list[Item]:
-    """The links of many poses, joint by joint, and their tools."""
-    pieces: dict[int, list[FloatArray]] = {}
-    for pose in poses:
-        tool = (pose.robot.dof, frames(pose.robot, pose.T)[-2:, :3, 3])
-        for joint, points in (*link_polylines(pose), tool):
-            pieces.setdefault(joint, []).append(np.repeat(points, 2, axis=0)[1:-1])
+def _links(robot: Robot, T: FloatArray, palette: ScenePalette) -> list[Item]:
+    """The links of many poses T (b, n + 1, 4, 4), joint by joint, and their tools."""
+    tools = np.stack([T[:, -1, :3, 3], (T[:, -1] @ robot.T_flange_tool)[:, :3, 3]], axis=1)
+    pieces = [*_bent_links(robot, T), (robot.dof, tools)]
+    joints = sorted({joint for joint, _ in pieces})
     return [
-        Segments(f"{GHOST_KEY}s.link{joint}", np.concatenate(parts), _color(poses[0].robot, joint, palette), _WIDTH)
-        for joint, parts in pieces.items()
+        Segments(
+            f"{GHOST_KEY}s.link{joint}",
+            np.concatenate(
+                [np.repeat(points, 2, axis=1)[:, 1:-1].reshape(-1, 3) for j, points in pieces if j == joint]
+            ),
+            _color(robot, joint, palette),
+            _WIDTH,
+        )
+        for joint in joints
     ]
+
+
+def _bent_links(robot: Robot, T: FloatArray) -> list[tuple[int, FloatArray]]:
+    """(joint that moves it, points (b, k, 3)) for each piece, as `link_polylines` has them for one pose."""
+    origins, a = T[:, :, :3, 3], robot.dh[:, 2, None]
+    if robot.convention == "standard":
+        corners = origins[:, 1:] - a * T[:, 1:, :3, 0]
+        return [(i, np.stack([origins[:, i], corners[:, i], origins[:, i + 1]], axis=1)) for i in range(robot.dof)]
+    corners = origins[:, :-1] + a * T[:, :-1, :3, 0]
+    before = [(i - 1, np.stack([origins[:, i], corners[:, i]], axis=1)) for i in range(robot.dof)]
+    return [*before, *((i, np.stack([corners[:, i], origins[:, i + 1]], axis=1)) for i in range(robot.dof))]
 
 
 def _outline(ghost: Ghost, pose: Pose, palette: ScenePalette) -> Item:
@@ -88,9 +105,8 @@ def _names(ghosts: Sequence[Ghost], poses: Sequence[Pose], palette: ScenePalette
     """Each ghost's name where the ghost is farthest from the others; ghosts at one place share their names."""
     near = 0.06 * poses[0].robot.size
     places: list[tuple[FloatArray, list[Ghost]]] = []
-    for index, ghost in enumerate(ghosts):
-        place = _own_place(index, poses)
-        shared = [names for other, names in places if np.linalg.norm(other - place) < near]
+    for ghost, place in zip(ghosts, _own_places(poses), strict=True):
+        shared = [names for other, names in places if float(np.abs(other - place).max()) < near]
         if shared:
             shared[0].append(ghost)
         else:
@@ -104,16 +120,11 @@ def _name(place: FloatArray, ghosts: list[Ghost], palette: ScenePalette) -> Labe
     return Label(place, " ".join(ghost.title for ghost in ghosts), color, (8.0, -8.0), 16.0 if lit else 13.0)
 
 
-def _own_place(index: int, poses: Sequence[Pose]) -> FloatArray:
-    """Where a ghost is farthest from all others, but for those that look just like it."""
-    points = [np.concatenate([pose.corners, pose.joints]) for pose in poses]
-    own, near = points[index], 1e-3 * poses[index].robot.size
-    gaps = [_gaps(own, other) for other in points]
-    different = [gap for gap in gaps if gap.max() > near]
-    best = int(np.argmax(np.min(different, axis=0))) if different else len(own) // 2
-    return np.array(own[best], dtype=np.float64)
-
-
-def _gaps(points: FloatArray, others: FloatArray) -> FloatArray:
-    """(k,) how far each point (k, 3) is from the nearest of the others."""
-    return np.asarray(np.linalg.norm(points[:, None] - others[None], axis=2).min(axis=1))
+def _own_places(poses: Sequence[Pose]) -> FloatArray:
+    """(b, 3) where each ghost is farthest from all others, but for those that look just like it."""
+    points = np.stack([np.concatenate([pose.corners, pose.joints]) for pose in poses])
+    between = points[:, :, None, None] - points[None, None]
+    gaps = np.sqrt(np.einsum("akbli,akbli->akbl", between, between)).min(axis=3)  # (b, k, b): a point to another ghost
+    alike = gaps.max(axis=1) <= 1e-3 * poses[0].robot.size
+    away = np.where(alike[:, None, :], np.inf, gaps).min(axis=2)
+    return np.asarray(points[np.arange(len(poses)), np.argmax(away, axis=1)])

@@ -27,7 +27,7 @@ _SHAFT, _HEAD, _TIP = 0.24, 0.80, 1.0  # along an arrow, in sizes
 _HEAD_WIDTHS = (10.0, 8.0, 6.0, 4.0, 2.5)
 _SQUARE = (0.30, 0.52)
 _RING = 0.78
-_FACETS = 72
+_FACETS = 48
 _END_ON, _EDGE_ON = 0.975, 0.14  # |cosine| to the line of sight: an arrow seen from its end, a plane from its edge
 _LIT = Color.from_hex("#FFB000")
 
@@ -87,15 +87,14 @@ def gizmo_items(gizmo: Gizmo, palette: ScenePalette, lit: str = "", held: str = 
 
     Args:
         lit: the key of the handle under the pointer.
-        held: the key of the one that is being dragged: the others fade.
+        held: the key of the one that is being dragged: the others are gone meanwhile.
         note: how far it has been dragged, written beside it.
     """
     items: list[Item] = []
-    for handle in sorted(gizmo.seen(), key=lambda handle: _nearness(gizmo, handle)):
-        color = _color(handle, palette, lit=handle.key in (lit, held))
-        if held and handle.key != held:
-            color = color.faded(0.22)
-        items += _DRAWN[handle.kind](gizmo, handle, color, handle.key in (lit, held))
+    shown = [handle for handle in gizmo.seen() if not held or handle.key == held]
+    for handle in sorted(shown, key=lambda handle: _nearness(gizmo, handle)):
+        items += _DRAWN[handle.kind](gizmo, handle, _ink(handle, palette, lit=handle.key in (lit, held)))
+    items += [_guide(gizmo, handle, palette) for handle in shown if held and handle.kind == "axis"]
     if note:
         label = Label(gizmo.origin, note, palette.text, (18.0, 30.0), 13.5)
         items.append(Labels(f"{GIZMO_KEY}.note", (label,)))
@@ -107,47 +106,64 @@ def _nearness(gizmo: Gizmo, handle: Handle) -> float:
     return order + float(handle.direction @ gizmo.to_eye) * (1.0 if handle.kind == "axis" else -1.0)
 
 
-def _color(handle: Handle, palette: ScenePalette, *, lit: bool) -> Color:
+class _Ink(NamedTuple):
+    """What a handle is drawn with: its colour, the same near the background's, and whether it stands out."""
+
+    color: Color
+    faint: Color
+    lit: bool
+
+
+def _ink(handle: Handle, palette: ScenePalette, *, lit: bool) -> _Ink:
     own = (*axis_colors(palette.background), palette.text)[handle.color]
-    return mixed(_LIT, own, 0.15) if lit else own
+    color = mixed(_LIT, own, 0.15) if lit else own
+    return _Ink(color, mixed(color, palette.background, 0.68), lit)
 
 
-def _arrow(gizmo: Gizmo, handle: Handle, color: Color, lit: bool) -> list[Item]:
-    key, wider = f"{GIZMO_KEY}.{handle.key}", 1.6 if lit else 0.0
+def _guide(gizmo: Gizmo, handle: Handle, palette: ScenePalette) -> Item:
+    """The line along which a held arrow moves."""
+    ends = _along(gizmo, handle, (-4.0, 4.0))
+    return Segments(f"{GIZMO_KEY}.guide", ends, axis_colors(palette.background)[handle.color].faded(0.5), 1.2)
+
+
+def _arrow(gizmo: Gizmo, handle: Handle, ink: _Ink) -> list[Item]:
+    key, wider = f"{GIZMO_KEY}.{handle.key}", 1.6 if ink.lit else 0.0
     ends = np.linspace(_HEAD, _TIP, len(_HEAD_WIDTHS) + 1)
-    items: list[Item] = [Polyline(key, _along(gizmo, handle, (_SHAFT, _HEAD)), color, 3.0 + 0.5 * wider)]
+    items: list[Item] = [Polyline(key, _along(gizmo, handle, (_SHAFT, _HEAD)), ink.color, 3.0 + 0.5 * wider)]
     for number, width in enumerate(_HEAD_WIDTHS):
         piece = _along(gizmo, handle, (ends[number], ends[number + 1]))
         # Not quite opaque: opaque thick lines are shaded like tubes, piece by piece.
-        items.append(Polyline(f"{key}.head{number}", piece, color.faded(0.99), width + wider))
-    if not lit and color.alpha == 1.0:
-        letter = Label(_along(gizmo, handle, (1.13, 1.13))[0], handle.name, color, (-3.5, 4.5), 12.0)
+        items.append(Polyline(f"{key}.head{number}", piece, ink.color.faded(0.99), width + wider))
+    if not ink.lit:
+        letter = Label(_along(gizmo, handle, (1.13, 1.13))[0], handle.name, ink.color, (-3.5, 4.5), 12.0)
         items.append(Labels(f"{key}.letter", (letter,)))
     return items
 
 
-def _square(gizmo: Gizmo, handle: Handle, color: Color, lit: bool) -> list[Item]:
+def _square(gizmo: Gizmo, handle: Handle, ink: _Ink) -> list[Item]:
     corners = _corners(gizmo, handle)
     key = f"{GIZMO_KEY}.{handle.key}"
     shares = np.linspace(0.0, 1.0, 9)[1:-1, None]
     left, right = corners[0] + shares * (corners[3] - corners[0]), corners[1] + shares * (corners[2] - corners[1])
     hatch = np.stack([left, right], axis=1).reshape(-1, 3)
     return [
-        Segments(f"{key}.fill", hatch, color.faded(0.75 if lit else 0.40), 2.6),
-        Polyline(key, corners[[0, 1, 2, 3, 0]], color.faded(1.0 if lit else 0.85), 2.2 if lit else 1.6),
+        Segments(f"{key}.fill", hatch, ink.color.faded(0.75 if ink.lit else 0.40), 2.6),
+        Polyline(key, corners[[0, 1, 2, 3, 0]], ink.color.faded(1.0 if ink.lit else 0.85), 2.2 if ink.lit else 1.6),
     ]
 
 
-def _ring(gizmo: Gizmo, handle: Handle, color: Color, lit: bool) -> list[Item]:
+def _ring(gizmo: Gizmo, handle: Handle, ink: _Ink) -> list[Item]:
     """The near half strong, the far half faint."""
     key = f"{GIZMO_KEY}.{handle.key}"
     points = _circle(gizmo, handle)
-    items: list[Item] = [Polyline(f"{key}.far", points, color.faded(0.30), 1.4)]
-    return [*items, Polyline(key, _front(gizmo, points), color, 4.0 if lit else 2.6)]
+    return [
+        Polyline(f"{key}.far", points, ink.faint, 1.4),
+        Polyline(key, _front(gizmo, points), ink.color, 3.9 if ink.lit else 2.6),
+    ]
 
 
-def _knob(gizmo: Gizmo, handle: Handle, color: Color, lit: bool) -> list[Item]:
-    return [Dots(f"{GIZMO_KEY}.{handle.key}", gizmo.origin[None], color, 15.0 if lit else 12.0)]
+def _knob(gizmo: Gizmo, handle: Handle, ink: _Ink) -> list[Item]:
+    return [Dots(f"{GIZMO_KEY}.{handle.key}", gizmo.origin[None], ink.color, 15.0 if ink.lit else 12.0)]
 
 
 _DRAWN = {"axis": _arrow, "plane": _square, "ring": _ring, "free": _knob}

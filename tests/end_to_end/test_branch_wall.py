@@ -90,6 +90,7 @@ def drag(qtbot: QtBot, window: MainWindow, key: str, by: tuple[float, float], st
         qtbot.waitUntil(lambda: window.target._pending is None)
         followed.append(window.session.q)
     qtbot.mouseRelease(view, LEFT, NONE, (start + QPointF(*by)).toPoint())
+    qtbot.waitUntil(lambda: not window.stage._stale.isActive())  # all handles are in the scene again
     return followed
 
 

@@ -26,6 +26,7 @@ from rvsim.spatial import rotation_from_rpy, rpy_from_rotation
 
 _AXES = ("x", "y", "z")
 _ANGLES = ("roll", "pitch", "yaw")
+_HINT = "Point at a branch to see its ghost; click it, or press Enter, to go there."
 _UNITS = ("angle_unit", "length_unit", "extra_decimals")
 
 
@@ -250,7 +251,7 @@ class InversePanel(QWidget):
         )
 
     def _show_detail(self) -> None:
-        self.detail.setText(self.model.words_of(self._control.lit))
+        self.detail.setText(self.model.words_of(self._control.lit) or _HINT)
 
     def _on_preference(self, name: str) -> None:
         for preference, switch in (("arm_follows", self.follow), ("all_ghosts", self.ghosts)):

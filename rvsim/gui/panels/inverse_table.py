@@ -139,6 +139,12 @@ def _distance_text(robot: Robot, branch: Branch, preferences: Preferences) -> st
     return format_number(branch.distance, 3)
 
 
+def _looks(row: Row) -> tuple[object, ...]:
+    """What a title's cell shows, and how."""
+    broken = int(np.argmin(row.branch.limit_margin)) if not row.branch.within_limits else -1
+    return row.name, row.branch.label, row.branch.continuum, broken, row.usable, row.here
+
+
 class BranchModel(QAbstractTableModel):
     """Rows of branches, best first."""
 
@@ -163,9 +169,11 @@ class BranchModel(QAbstractTableModel):
             self.rows = rows
             self.endResetModel()
             return
-        self.rows = rows
+        before, self.rows = self.rows, rows
         if rows:
-            self.dataChanged.emit(self.index(0, 0), self.index(len(rows) - 1, len(self.columns) - 1))
+            # The titles take longest to lay out, and change least.
+            first = int(all(_looks(old) == _looks(new) for old, new in zip(before, rows, strict=True)))
+            self.dataChanged.emit(self.index(0, first), self.index(len(rows) - 1, len(self.columns) - 1))
 
     def rowCount(self, parent: Index = _TOP) -> int:
         """The number of branches."""
@@ -206,8 +214,8 @@ class BranchModel(QAbstractTableModel):
         return f"{', '.join(parts)}, residual {format_scientific(branch.residual)}.{endless} {row.note}".rstrip()
 
     def words_of(self, name: str | None) -> str:
-        """The whole verdict of the branch of that name, else of the one where the arm is, or nothing."""
-        lit = [row for row in self.rows if row.name == name] or [row for row in self.rows if row.here]
+        """The whole verdict of the branch of that name, or of the only row; nothing if there is no such branch."""
+        lit = [row for row in self.rows if row.name == name or row.note]
         return self._words(lit[0]) if lit else ""
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
@@ -257,7 +265,7 @@ class BranchTable(QTableView):
         self.clicked.connect(self._choose)
         self.selectionModel().currentChanged.connect(lambda index, _: self.lit.emit(index.data(NAME_ROLE)))
         model.modelReset.connect(self.fit_columns)
-        model.dataChanged.connect(lambda *_: self._fit_rows())
+        model.dataChanged.connect(lambda start, *_: self._fit_rows() if start.column() == 0 else None)
 
     def _dress(self) -> None:
         self.setShowGrid(False)
