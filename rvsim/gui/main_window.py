@@ -247,6 +247,7 @@ class MainWindow(QMainWindow):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember the layout; stop what moves."""
         self.motion.pause()
+        self.tracker.close()
         self.target.close()
         self.laboratory.stop()
         geometry, layout = self.window_layout()

@@ -54,6 +54,8 @@ def _set_up(window: MainWindow, state: str) -> None:
             raise UnknownNameError("state", state, (*_STATES, *known))
         window.session.edit("Trajectory", replace(experiment, trajectory=TrajectoryTask(state)))
         window.tracker.track_trajectory()
+    while window.tracker.busy:
+        _settle(20)
     window.motion.seek(0.8 * window.motion.player.duration)
     window.motion.pause()
 

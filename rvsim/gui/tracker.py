@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any, NamedTuple
 
 from PySide6.QtCore import QObject, Signal
@@ -11,10 +12,12 @@ from rvsim.errors import RvsimError
 from rvsim.experiment import Experiment, TrajectoryTask, limit_violations
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.session import Session
+from rvsim.gui.workers import LatestWorker
 from rvsim.lab.lines import line_presets
 from rvsim.lab.named_paths import line_of, named_path
 from rvsim.lab.sentences import tracking_sentence
 from rvsim.motion import Path, Tracking, Trajectory, track, trajectory_of
+from rvsim.robot import Robot
 
 # Where a path of a source cannot be drawn as printed: the same path where it can.
 _PLACEMENTS = {
@@ -22,6 +25,7 @@ _PLACEMENTS = {
     "letter-scaled": "letter-flat",
     "ellipse": "ellipse-moved",
 }
+_AT_ONCE, _AT_ONCE_FREE = 250, 40  # points that are tracked without a worker
 _REMEMBERED = 8  # results that undo can bring back
 
 
@@ -44,10 +48,7 @@ class _Done(NamedTuple):
 
     def still_holds(self, experiment: Experiment) -> bool:
         """Whether tracking in that state would give the same, from wherever the arm stands."""
-        own, other = self.experiment, experiment
-        same_task = own.line is other.line if self.kind == "line" else own.trajectory is other.trajectory
-        same_limits = own.ignore_limits == other.ignore_limits or self._needs_no_choice()
-        return same_task and own.robot is other.robot and same_limits
+        return _same_task(self.kind, self.experiment, experiment, limits_matter=not self._needs_no_choice())
 
     def _needs_no_choice(self) -> bool:
         """Whether it is whole and within the limits, so that it is the same whether they are heeded or not."""
@@ -55,16 +56,42 @@ class _Done(NamedTuple):
         return tracking.complete and not any(limit_violations(tracking.robot, q) for q in tracking.q)
 
 
+def _same_task(kind: str, one: Experiment, other: Experiment, *, limits_matter: bool = True) -> bool:
+    """Whether both states ask for the same path of the same arm, under the same rule about its limits."""
+    same = one.line is other.line if kind == "line" else one.trajectory is other.trajectory
+    return same and one.robot is other.robot and (one.ignore_limits == other.ignore_limits or not limits_matter)
+
+
+def _solved(kind: str, experiment: Experiment, path: Path, text: str) -> _Done:
+    tracking = track(experiment.robot, path, near=experiment.q, ignore_limits=experiment.ignore_limits)
+    return _Done(kind, experiment, tracking, trajectory_of(tracking, experiment.q), text)
+
+
+def _takes_long(robot: Robot, path: Path) -> bool:
+    """Whether tracking could hold up the window for a tenth of a second. By size, so that it is always the same."""
+    free = path.rotations is None and robot.dof > 3
+    return path.samples > (_AT_ONCE_FREE if free else _AT_ONCE)
+
+
 class PathTracker(QObject):
-    """`tracked(kind)` tells that "line" or "trajectory" has been tracked; the result is `session.tracking`."""
+    """Short paths are tracked at once, long ones in a worker.
+
+    Signals:
+        tracked(kind): "line" or "trajectory" has been tracked; the result is `session.tracking`.
+        busy_changed(busy): the worker has begun, or ended.
+    """
 
     tracked = Signal(str)
+    busy_changed = Signal(bool)
 
     def __init__(self, session: Session, motion: MotionControl, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session, self._motion = session, motion
         self.kind = "line"
         self._done: list[_Done] = []  # the last one is shown
+        self._pending: tuple[str, Experiment] | None = None  # what the worker is at
+        self._worker = LatestWorker(self)
+        self._worker.done.connect(self._on_solved)
         session.changed.connect(self._on_changed)
 
     def track_line(self) -> None:
@@ -88,6 +115,24 @@ class PathTracker(QObject):
         self._session.edit(repair.title, repair.experiment)
         self._track(self.kind, repair.title)
 
+    @property
+    def busy(self) -> bool:
+        """Whether a path is being worked out."""
+        return self._pending is not None
+
+    def cancel(self) -> None:
+        """Give up what is being worked out; what was tracked before stays."""
+        if self._pending is not None:
+            self._pending = None
+            self._worker.cancel()
+            self.busy_changed.emit(False)
+            self._session.say("Given up. What was tracked before is still there.")
+
+    def close(self) -> None:
+        """End the worker, for the window closes."""
+        self._pending = None
+        self._worker.close()
+
     def clear(self) -> None:
         """Take the tracked path and its motion out."""
         self._done = []
@@ -96,6 +141,8 @@ class PathTracker(QObject):
 
     def _on_changed(self, _before: Experiment, after: Experiment) -> None:
         """A result stays as long as it is the result of what stands in the panel; undo brings an earlier one back."""
+        if self._pending is not None and not _same_task(*self._pending, after):
+            self.cancel()
         shown = self._session.tracking
         if shown is not None and self._done[-1].still_holds(after):
             return
@@ -114,15 +161,30 @@ class PathTracker(QObject):
         self.kind = kind
         experiment = self._session.experiment
         try:
-            tracking = track(
-                experiment.robot, self._path(experiment), near=experiment.q, ignore_limits=experiment.ignore_limits
-            )
+            path = self._path(experiment)
+            job = partial(_solved, kind, experiment, path, text)
+            if _takes_long(experiment.robot, path):
+                self._pending = (kind, experiment)
+                self._worker.ask(job)
+                self.busy_changed.emit(True)
+                self._session.say(f"Working out {path.samples} points …")
+                return
+            done = job()
         except RvsimError as problem:
             self._session.say(str(problem), "error")
             return
-        self._show(_Done(kind, experiment, tracking, trajectory_of(tracking, experiment.q), text))
-        self._session.say(tracking_sentence(tracking), "info" if tracking.complete else "warning")
-        self.tracked.emit(kind)
+        self._finish(done)
+
+    def _on_solved(self, done: _Done) -> None:
+        self._pending = None
+        self.busy_changed.emit(False)
+        # The arm may have been moved meanwhile: the way to the path begins where it is now.
+        self._finish(done._replace(trajectory=trajectory_of(done.tracking, self._session.q)))
+
+    def _finish(self, done: _Done) -> None:
+        self._show(done)
+        self._session.say(tracking_sentence(done.tracking), "info" if done.tracking.complete else "warning")
+        self.tracked.emit(done.kind)
         self._motion.play()
 
     def _show(self, done: _Done) -> None:

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
     QGroupBox,
     QHBoxLayout,
     QLabel,
+    QProgressBar,
     QPushButton,
     QSpinBox,
     QVBoxLayout,
@@ -227,6 +228,12 @@ class ResultSection(QGroupBox):
         self.sentence = QLabel(wordWrap=True)
         self.sentence.setObjectName("tracking_sentence")
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.busy = QProgressBar()
+        self.busy.setObjectName("tracking_progress")
+        self.busy.setRange(0, 0)
+        self.busy.setTextVisible(False)
+        self.busy.setFixedHeight(8)
+        self.cancel = button("cancel_tracking_button", "Cancel", "Give up working this path out", tracker.cancel)
         self._repairs = QHBoxLayout()
         self._repairs.setSpacing(6)
         rows = form()
@@ -235,10 +242,21 @@ class ResultSection(QGroupBox):
         rows.addRow("Largest", self.largest)
         rows.addRow("Between", self.between)
         rows.addRow("Solved in", self.time)
+        waiting = QHBoxLayout()
+        waiting.addWidget(self.busy, 1)
+        waiting.addWidget(self.cancel)
+        rows.addRow(waiting)
         rows.addRow(self.sentence)
         rows.addRow(self._repairs)
         self.setLayout(rows)
         self.show_tracking(None)
+        self.show_busy(False)
+        tracker.busy_changed.connect(self.show_busy)
+
+    def show_busy(self, busy: bool) -> None:
+        """Show that a long path is being worked out; the old result stays in sight."""
+        self.busy.setVisible(busy)
+        self.cancel.setVisible(busy)
 
     def show_tracking(self, tracking: Tracking | None) -> None:
         """Show the result, or what to do to get one."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PySide6.QtWidgets import QComboBox, QPushButton, QSpinBox
+from pytestqt.qtbot import QtBot
 
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.path import PathPanel
@@ -57,7 +58,8 @@ def test_two_steps_typed_one_after_the_other_are_two_undo_steps(panel: PathPanel
 
 
 def repairs(panel: PathPanel) -> set[str]:
-    return {button.text() for button in panel.result.findChildren(QPushButton)}
+    buttons = panel.result.findChildren(QPushButton)
+    return {button.text() for button in buttons if button.objectName().startswith("repair_")}
 
 
 def test_missed_points_come_with_what_would_help(panel: PathPanel) -> None:
@@ -130,3 +132,23 @@ def test_a_result_goes_with_what_it_was_the_result_of_and_undo_brings_it_back(pa
     panel.line.button.click()
     assert session.tracking is not None
     assert session.tracking is not tracking
+
+
+def test_a_long_path_is_worked_out_beside_the_window_and_can_be_given_up(panel: PathPanel, qtbot: QtBot) -> None:
+    session, tracker = panel.line._session, panel.result._tracker
+    panel.line.button.click()
+    short = session.tracking
+    panel.findChild(QSpinBox, "line_points").setValue(501)
+    tracker.track_line()
+    assert tracker.busy
+    assert panel.result.cancel.isVisible()
+    panel.result.cancel.click()
+    assert not tracker.busy
+    session.undo_stack.undo()
+    assert session.tracking is short
+    session.undo_stack.redo()
+    tracker.track_line()
+    qtbot.waitUntil(lambda: not tracker.busy)
+    assert session.tracking is not None
+    assert session.tracking.samples == 501
+    tracker.close()
