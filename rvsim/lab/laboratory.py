@@ -155,9 +155,14 @@ def contest_sentence(contest: Contest) -> str:
     if len(done) == 1:
         return f"Only {done[0].title} reaches the target, in {_count(done[0].result.iterations, 'iteration')}."
     who = f"All {count} reach" if len(done) == count else f"{len(done)} of {count} reach"
-    best = contest.best
-    fewest = f"{best.title} needs the fewest iterations ({best.result.iterations})"
-    return f"{who} the target. {fewest}. {_solutions_clause(contest)}"
+    return f"{who} the target. {_fewest_clause(contest)} {_solutions_clause(contest)}"
+
+
+def _fewest_clause(contest: Contest) -> str:
+    least = contest.best.result.iterations
+    first = [outcome for outcome in contest.converged if outcome.result.iterations == least]
+    who = f"{contest.best.title} needs" if len(first) == 1 else f"{_together(first)} need"
+    return f"{who} the fewest iterations ({least})."
 
 
 def _solutions_clause(contest: Contest) -> str:
@@ -168,7 +173,8 @@ def _solutions_clause(contest: Contest) -> str:
 
 
 def _together(group: Sequence[Outcome]) -> str:
-    return " and ".join(SHORT_TITLES[outcome.solver] for outcome in group)
+    *most, last = (SHORT_TITLES[outcome.solver] for outcome in group)
+    return f"{', '.join(most)} and {last}" if most else last
 
 
 def same_solutions(contest: Contest) -> tuple[tuple[Outcome, ...], ...]:

@@ -60,6 +60,11 @@ def test_the_best_needs_the_fewest_iterations() -> None:
     assert contest_sentence(contest).startswith("All 4 reach the target. Damped least squares needs the fewest")
 
 
+def test_solvers_that_need_equally_few_are_named_together() -> None:
+    sentence = contest_sentence(contest_of(trial_of("cartesian")))
+    assert "Newton and BFGS need the fewest iterations (1). They end in the same pose of the arm." in sentence
+
+
 def test_out_of_reach_each_solver_says_why_it_ended_and_what_is_left() -> None:
     trial = trial_of("rv-m1")
     away = trial.T.copy()
