@@ -1,4 +1,4 @@
-"""rvsim: see, move, compute and understand a robot arm, then drive a real one.
+"""rvsim: see, move, compute and understand a robot arm.
 
 Radians, metres, seconds throughout; arrays are batch-first: q (..., n), T (..., 4, 4), J (..., 6, n).
 The map of the house, from the ground up (each floor imports only floors below it):
@@ -7,16 +7,14 @@ The map of the house, from the ground up (each floor imports only floors below i
     spatial      rotations and transforms, no robots
     robot        what an arm is: DH rows, joints, limits, tools, shapes
     kinematics   where it is: forward, Jacobian, inverse
-    dynamics     what it takes
     motion       where it goes and when: path, time law, tracking
     playback     which moment is shown
     experiment   the state a session stores, and the edits between states
     files        the disk
-    device       the wire
     scene        what is to be seen, no Qt
     lab          the experiments of the sources
     gui          the screen
-    self_test, cli, __main__
+    cli, __main__
 """
 
 from rvsim.files.robot_file import load_robot, robot_names
