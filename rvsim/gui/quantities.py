@@ -6,6 +6,7 @@ import math
 from typing import Literal, NamedTuple
 
 from rvsim.gui.preferences import Preferences
+from rvsim.lab.sentences import Units
 from rvsim.robot import Robot
 
 Kind = Literal["angle", "length", "unit_length", "number"]
@@ -35,6 +36,11 @@ def display(kind: Kind, preferences: Preferences) -> Display:
     units = {"angle": preferences["angle_unit"], "length": preferences["length_unit"]}
     shown = _DISPLAYS[kind, units.get(kind, "")]
     return shown._replace(decimals=shown.decimals + preferences["extra_decimals"])
+
+
+def shown_units(preferences: Preferences) -> Units:
+    """What sentences say angles and lengths in under the present preferences."""
+    return Units(preferences["angle_unit"], preferences["length_unit"])
 
 
 def length_kind(robot: Robot) -> Kind:

@@ -23,7 +23,7 @@ from rvsim.scene.primitives import Item
 _TRAIL_SAMPLES = 1500
 _GLIDE_MS = 280
 _MARKED_POINTS = 25  # more dots than these hide the line
-_SCENE_SETTINGS = {"theme", "look", "show_frames", "show_labels", "show_floor", "show_trail"}
+_SCENE_SETTINGS = {"theme", "look", "show_frames", "show_labels", "show_floor", "show_trail", "length_unit"}
 
 
 class Stage(QObject):
@@ -83,6 +83,7 @@ class Stage(QObject):
             frames=self._preferences["show_frames"],
             labels=self._preferences["show_labels"],
             floor=self._preferences["show_floor"],
+            length_unit=self._preferences["length_unit"],
         )
         layers = (item for items in self._layers.values() for item in items)
         extras = (*self._path, *self._trail_now(), *layers)

@@ -3,26 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from itertools import pairwise
+from typing import Literal
 
 from rvsim.motion import Tracking, Unreached
 from rvsim.robot import Robot
 from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 MINUS = "\u2212"
+
+
+@dataclass(frozen=True)
+class Units:
+    """What the sentences say angles and lengths in; an arm without a unit of length keeps its own."""
+
+    angle: Literal["deg", "rad"] = "deg"
+    length: Literal["mm", "m"] = "mm"
+
+
+_DEFAULT = Units()
 _FEWEST_JOINTS_TO_TURN = 4
 
 
-def tracking_sentence(tracking: Tracking) -> str:
+def tracking_sentence(tracking: Tracking, units: Units = _DEFAULT) -> str:
     """All of it: "4 of 11 points reached within the limits; 7 not: points 1–6: the elbow needs −156.7° … −116.9° and
     stops at −110°; point 11: the wrist pitch needs −94.7°, stops at −90°."."""
     missed = tracking.samples - tracking.reached_count
     if not missed:
         return short_sentence(tracking)
-    start, why = short_sentence(tracking).removesuffix("."), reasons(tracking)
+    start, why = short_sentence(tracking).removesuffix("."), reasons(tracking, units)
     if missed == tracking.samples and len(why) == 1:
         return f"{start}: {why[0].split(': ', 1)[1]}."
-    return f"{start}; {missed} not: {'; '.join(reasons(tracking))}."
+    return f"{start}; {missed} not: {'; '.join(why)}."
 
 
 def short_sentence(tracking: Tracking) -> str:
@@ -36,17 +49,17 @@ def short_sentence(tracking: Tracking) -> str:
     return f"{tracking.reached_count} of {_points(tracking.samples)} reached {within}{_jump_clause(tracking)}."
 
 
-def reasons(tracking: Tracking) -> tuple[str, ...]:
+def reasons(tracking: Tracking, units: Units = _DEFAULT) -> tuple[str, ...]:
     """One clause for each stretch of points that failed for the same reason; points are counted from 1."""
-    return tuple(f"{_which(group)}: {_why(tracking, group)}" for group in _groups(tracking.unreached))
+    return tuple(f"{_which(group)}: {_why(tracking.robot, group, units)}" for group in _groups(tracking.unreached))
 
 
-def deviation_sentence(tracking: Tracking) -> str:
+def deviation_sentence(tracking: Tracking, units: Units = _DEFAULT) -> str:
     """RMS and largest deviation over the reached points, and what the solving took."""
     if tracking.rms is None or tracking.max_deviation is None:
         return "No point was reached: there is no deviation to tell."
     over = "all points" if tracking.complete else f"the {_points(tracking.reached_count)} reached"
-    rms, largest = (length_error(tracking.robot, error) for error in (tracking.rms, tracking.max_deviation))
+    rms, largest = (length_error(tracking.robot, error, units) for error in (tracking.rms, tracking.max_deviation))
     milliseconds = 1e3 * tracking.solve_seconds
     return f"RMS {rms} over {over}, largest {largest}; solved in {milliseconds:.1f} ms."
 
@@ -67,19 +80,27 @@ def advice_sentence(tracking: Tracking) -> str:
     return f"{text[0].upper()}{text[1:]}."
 
 
-def joint_amount(robot: Robot, joint: str, value: float) -> str:
+def joint_amount(robot: Robot, joint: str, value: float, units: Units = _DEFAULT) -> str:
     """A joint's value [rad, m] for the eye: "−156.7°", "12.5 mm", "1.5 units"."""
-    if robot.is_revolute[robot.joint_names.index(joint)]:
-        return f"{_plain(degrees_from_radians(value))}°"
-    if robot.length_unit == "unit":
-        return f"{_plain(value, decimals=3)} units"
-    return f"{_plain(millimetres_from_metres(value))} mm"
+    if not robot.is_revolute[robot.joint_names.index(joint)]:
+        return _amount(value, _length_unit(robot, units))
+    return f"{_plain(degrees_from_radians(value))}°" if units.angle == "deg" else f"{_plain(value, decimals=3)} rad"
 
 
-def length_error(robot: Robot, error: float) -> str:
+def length_error(robot: Robot, error: float, units: Units = _DEFAULT) -> str:
     """A deviation [m] in scientific notation, never rounded to 0."""
-    value, unit = (error, "units") if robot.length_unit == "unit" else (millimetres_from_metres(error), "mm")
+    unit = _length_unit(robot, units)
+    value = millimetres_from_metres(error) if unit == "mm" else error
     return f"{value:.1e} {unit}".replace("-", MINUS)
+
+
+def _length_unit(robot: Robot, units: Units) -> str:
+    return "units" if robot.length_unit == "unit" else units.length
+
+
+def _amount(length: float, unit: str) -> str:
+    value, decimals = {"mm": (millimetres_from_metres(length), 1), "m": (length, 4)}.get(unit, (length, 3))
+    return f"{_plain(value, decimals)} {unit}"
 
 
 def _plain(value: float, decimals: int = 1) -> str:
@@ -119,7 +140,7 @@ def _which(group: list[Unreached]) -> str:
     return f"point {first}" if first == last else f"points {first}–{last}"
 
 
-def _why(tracking: Tracking, group: list[Unreached]) -> str:
+def _why(robot: Robot, group: list[Unreached], units: Units) -> str:
     point = group[0]
     if point.kind == "reach":
         return "out of reach in any orientation"
@@ -127,8 +148,8 @@ def _why(tracking: Tracking, group: list[Unreached]) -> str:
         return "in reach, but not in this orientation"
     limit = point.limit
     needed = sorted((p.value for p in group if p.value is not None), key=lambda value: -abs(value - limit))
-    most, least = (joint_amount(tracking.robot, point.joint, value) for value in (needed[0], needed[-1]))
-    stop = joint_amount(tracking.robot, point.joint, limit)
+    most, least = (joint_amount(robot, point.joint, value, units) for value in (needed[0], needed[-1]))
+    stop = joint_amount(robot, point.joint, limit, units)
     if most == least:
         return f"{_joint(point.joint)} needs {most}, stops at {stop}"
     return f"{_joint(point.joint)} needs {most} … {least} and stops at {stop}"

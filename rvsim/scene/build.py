@@ -30,12 +30,13 @@ _BELOW = 0.08
 
 @dataclass(frozen=True)
 class SceneOptions:
-    """What of the scene is switched on."""
+    """What of the scene is switched on, and the unit of the floor's numbers (an arm without one keeps its own)."""
 
     look: Look = "solid"
     frames: bool = False
     labels: bool = True
     floor: bool = True
+    length_unit: Literal["mm", "m"] = "mm"
 
 
 def compose(
@@ -47,7 +48,8 @@ def compose(
 ) -> Scene:
     """The arm at q (n,) on its floor, with more items (paths, trails, ghosts) if given."""
     chosen = options or SceneOptions()
-    floor = floor_items(palette, floor_extent(robot), robot.length_unit) if chosen.floor else ()
+    unit = "unit" if robot.length_unit == "unit" else chosen.length_unit
+    floor = floor_items(palette, floor_extent(robot), unit) if chosen.floor else ()
     arm = arm_items(robot, q, palette, look=chosen.look, frames=chosen.frames, labels=chosen.labels)
     return Scene((*floor, *extras, *arm), palette.background, scene_bounds(robot))
 

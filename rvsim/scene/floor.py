@@ -1,4 +1,4 @@
-"""The floor: a plate with a grid, numbers along two edges in the unit of the arm. Made once for each size."""
+"""The floor: a plate with a grid, numbers along two edges in the unit that is shown. Made once for each size."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Extent(NamedTuple):
 
 @lru_cache(maxsize=16)
 def floor_items(palette: ScenePalette, extent: Extent, unit: str) -> tuple[Item, ...]:
-    """The floor under an arm that reaches over `extent` [m]; `unit` is "millimetre" or "unit".
+    """The floor under an arm that reaches over `extent` [m]; its numbers are in `unit`, "mm", "m" or "unit".
 
     The same arguments give the same objects, so that a renderer draws them again without looking.
     """
@@ -85,12 +85,12 @@ def _cross(grid: Extent) -> FloatArray:
 
 def _labels(palette: ScenePalette, grid: Extent, step: float, unit: str) -> tuple[Label, ...]:
     """Numbers along the edges that the usual views have in front; the axis' name stands where its last one would."""
-    muted, name = palette.muted_text, "mm" if unit == "millimetre" else "unit"
+    muted = palette.muted_text
     beside_x, beside_y = grid.y_min - 0.3 * step, grid.x_max + 0.3 * step
     x, y = _places(grid.x_min, grid.x_max, step)[:-1], _places(grid.y_min, grid.y_max, step)[1:-1]
     numbers = [_centred((place, beside_x, 0.0), _number(place, unit), muted) for place in x.tolist()]
     numbers += [_centred((beside_y, place, 0.0), _number(place, unit), muted) for place in y.tolist()]
-    ends = ((grid.x_max, beside_x, 0.0), f"x [{name}]"), ((beside_y, grid.y_max, 0.0), f"y [{name}]")
+    ends = ((grid.x_max, beside_x, 0.0), f"x [{unit}]"), ((beside_y, grid.y_max, 0.0), f"y [{unit}]")
     return (*numbers, *(_centred(place, text, palette.text) for place, text in ends))
 
 
@@ -100,5 +100,5 @@ def _centred(position: tuple[float, float, float], text: str, color: Color) -> L
 
 
 def _number(place: float, unit: str) -> str:
-    value = millimetres_from_metres(place) if unit == "millimetre" else place
+    value = millimetres_from_metres(place) if unit == "mm" else place
     return f"{round(value, 9) + 0.0:.6g}".replace("-", "−")

@@ -7,6 +7,7 @@ import numpy as np
 from rvsim import load_robot
 from rvsim.lab import named_path
 from rvsim.lab.sentences import (
+    Units,
     advice_sentence,
     deviation_sentence,
     joint_amount,
@@ -62,6 +63,16 @@ def test_amounts_have_the_units_of_the_screen() -> None:
     assert joint_amount(rv_m1, "elbow", np.radians(-1e-9)) == "0°"
     assert joint_amount(scara, "d3", 0.0125) == "12.5 mm"
     assert joint_amount(rrrp, "l6", 4.25) == "4.25 units"
+
+
+def test_radians_and_metres_where_they_are_preferred() -> None:
+    rrrp, scara, units = load_robot("rrrp"), load_robot("scara"), Units("rad", "m")
+    tracking = line_of_source_000()
+    assert "the elbow needs −2.736 rad … −2.041 rad and stops at −1.92 rad" in tracking_sentence(tracking, units)
+    assert "°" not in tracking_sentence(tracking, units)
+    assert " m over the 4 points reached" in deviation_sentence(tracking, units)
+    assert joint_amount(scara, "d3", 0.0125, units) == "0.0125 m"
+    assert joint_amount(rrrp, "l6", 4.25, units) == "4.25 units"
 
 
 def test_a_joint_with_a_symbol_for_a_name_gets_no_article() -> None:

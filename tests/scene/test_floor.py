@@ -25,7 +25,7 @@ def test_a_step_is_one_two_or_five_and_not_much_smaller_than_asked(rough: float)
 
 @given(extents)
 def test_the_grid_covers_the_extent_and_passes_the_base(extent: Extent) -> None:
-    items: dict[str, Item] = {item.key: item for item in floor_items(LIGHT, extent, "millimetre")}
+    items: dict[str, Item] = {item.key: item for item in floor_items(LIGHT, extent, "mm")}
     grid, plate = items["floor.major"], items["floor.plate"]
     assert isinstance(grid, Segments)
     assert isinstance(plate, Box)
@@ -36,8 +36,10 @@ def test_the_grid_covers_the_extent_and_passes_the_base(extent: Extent) -> None:
     assert not grid.points[:, 2].any()
 
 
-@pytest.mark.parametrize(("unit", "number", "axis"), [("millimetre", "−500", "x [mm]"), ("unit", "−0.5", "x [unit]")])
-def test_numbers_are_in_the_unit_of_the_arm(unit: str, number: str, axis: str) -> None:
+@pytest.mark.parametrize(
+    ("unit", "number", "axis"), [("mm", "−500", "x [mm]"), ("m", "−0.5", "x [m]"), ("unit", "−0.5", "x [unit]")]
+)
+def test_numbers_are_in_the_shown_unit(unit: str, number: str, axis: str) -> None:
     numbers = floor_items(LIGHT, Extent(-0.5, 0.5, -0.5, 0.5), unit)[-1]
     assert isinstance(numbers, Labels)
     texts = {label.text for label in numbers.labels}
