@@ -15,7 +15,7 @@ from rvsim.gui.session import Session
 from rvsim.gui.workers import LatestWorker
 from rvsim.lab.lines import line_presets
 from rvsim.lab.named_paths import line_of, named_path
-from rvsim.lab.sentences import tracking_sentence
+from rvsim.lab.sentences import Units, tracking_sentence
 from rvsim.motion import Path, Tracking, Trajectory, track, trajectory_of
 from rvsim.robot import Robot
 
@@ -88,6 +88,7 @@ class PathTracker(QObject):
         super().__init__(parent)
         self._session, self._motion = session, motion
         self.kind = "line"
+        self.units = Units()  # what it says angles and lengths in
         self._done: list[_Done] = []  # the last one is shown
         self._pending: tuple[str, Experiment] | None = None  # what the worker is at
         self._worker = LatestWorker(self)
@@ -183,7 +184,8 @@ class PathTracker(QObject):
 
     def _finish(self, done: _Done) -> None:
         self._show(done)
-        self._session.say(tracking_sentence(done.tracking), "info" if done.tracking.complete else "warning")
+        sentence = tracking_sentence(done.tracking, self.units)
+        self._session.say(sentence, "info" if done.tracking.complete else "warning")
         self.tracked.emit(done.kind)
         self._motion.play()
 

@@ -165,3 +165,9 @@ def test_undo_walks_back_through_everything(window: MainWindow) -> None:
     while window.session.undo_stack.canUndo():
         window.session.undo_stack.undo()
     assert window.session.experiment is start
+
+
+def test_the_floor_is_in_metres_where_they_are_preferred(window: MainWindow) -> None:
+    window.preferences.set("length_unit", "m")
+    floor = next(item for item in window.scene_view.scene.items if item.key == "floor.numbers")
+    assert {"x [m]", "y [m]"} <= {label.text for label in floor.labels}

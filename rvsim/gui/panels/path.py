@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 
 from rvsim.experiment import Experiment, LineTask, PathOrientation, TrajectoryTask
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import format_scientific, length_kind
+from rvsim.gui.quantities import length_kind, shown_units
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
@@ -29,7 +29,7 @@ from rvsim.gui.tracker import PathTracker, Repair
 from rvsim.gui.widgets import button, column_of, combo, form, scrolled, select
 from rvsim.lab.lines import LinePreset, line_presets
 from rvsim.lab.named_paths import path_entry, path_names
-from rvsim.lab.sentences import tracking_sentence
+from rvsim.lab.sentences import length_error, tracking_sentence
 from rvsim.motion import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.edits import original_name
@@ -252,6 +252,14 @@ class ResultSection(QGroupBox):
         self.show_tracking(None)
         self.show_busy(False)
         tracker.busy_changed.connect(self.show_busy)
+        self._wear_units("angle_unit")
+        preferences.changed.connect(self._wear_units)
+
+    def _wear_units(self, name: str) -> None:
+        """Say the result in the preferred units, now and when the next path is tracked."""
+        if name in ("angle_unit", "length_unit"):
+            self._tracker.units = shown_units(self._preferences)
+            self.show_tracking(self._session.tracking)
 
     def show_busy(self, busy: bool) -> None:
         """Show that a long path is being worked out; the old result stays in sight."""
@@ -271,18 +279,21 @@ class ResultSection(QGroupBox):
             set_role(self.sentence, level="")
             return
         self._show_numbers(tracking)
-        self.sentence.setText(tracking_sentence(tracking))
+        self.sentence.setText(tracking_sentence(tracking, self._tracker.units))
         set_role(self.sentence, level="good" if tracking.complete else "warning")
         for repair in self._tracker.repairs():
             self._repairs.addWidget(self._repair_button(repair))
+
+    def _deviation(self, value: float | None, tracking: Tracking) -> str:
+        return "\u2013" if value is None else length_error(tracking.robot, value, self._tracker.units)
 
     def _show_numbers(self, tracking: Tracking) -> None:
         self.reached.setText(f"{tracking.reached_count} of {tracking.samples} points")
         of_reached = " (reached points)" if 0 < tracking.reached_count < tracking.samples else " (at the points)"
         of_reached = of_reached if tracking.reached_count else ""
-        self.rms.setText(_deviation(tracking.rms, tracking) + of_reached)
-        self.largest.setText(_deviation(tracking.max_deviation, tracking) + of_reached)
-        self.between.setText(_deviation(tracking.way_deviation, tracking))
+        self.rms.setText(self._deviation(tracking.rms, tracking) + of_reached)
+        self.largest.setText(self._deviation(tracking.max_deviation, tracking) + of_reached)
+        self.between.setText(self._deviation(tracking.way_deviation, tracking))
         milliseconds = tracking.solve_seconds * 1e3
         self.time.setText(f"{milliseconds:.2f} ms ({tracking.seconds_per_point * 1e6:.0f} µs a point)")
 
@@ -333,14 +344,6 @@ class PathPanel(QWidget):
     def _show(self, experiment: Experiment) -> None:
         self.line.show_task(experiment)
         self.trajectory.show_task(experiment)
-
-
-def _deviation(value: float | None, tracking: Tracking) -> str:
-    if value is None:
-        return "\u2013"
-    unit = " mm" if tracking.robot.length_unit == "millimetre" else " unit"
-    factor = 1e3 if unit == " mm" else 1.0
-    return format_scientific(value * factor) + unit
 
 
 def _same_line(preset: LinePreset, line: LineTask) -> bool:

@@ -72,6 +72,20 @@ def test_missed_points_come_with_what_would_help(panel: PathPanel) -> None:
     assert "reached points" in panel.result.rms.text()
 
 
+def test_the_result_is_said_in_the_preferred_units(panel: PathPanel, preferences) -> None:
+    test_missed_points_come_with_what_would_help(panel)
+    sentence, session = panel.result.sentence, panel.line._session
+    assert "−110°" in sentence.text()
+    assert " mm " in panel.result.rms.text()
+    preferences.set("angle_unit", "rad")
+    preferences.set("length_unit", "m")
+    assert "−1.92 rad" in sentence.text()
+    assert "°" not in sentence.text()
+    assert " m (reached points)" in panel.result.rms.text()
+    panel.line.button.click()
+    assert session.sentences[-1][0] == sentence.text()
+
+
 @pytest.mark.parametrize(
     ("name", "reached"), [("repair_free_pitch", 6), ("repair_ignore_limits", 11), ("repair_preset_line", 51)]
 )
