@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from rvsim.errors import PoseError, ShapeError
 from rvsim.kinematics.dh import joint_array
 from rvsim.kinematics.inverse.batch import solve_block
+from rvsim.kinematics.inverse.closed_form import ClosedForm
 from rvsim.kinematics.inverse.families import closed_form
 from rvsim.kinematics.inverse.result import DEFAULT_ORDER, InverseResult, in_order
 from rvsim.kinematics.inverse.task import candidates, tasks
@@ -77,23 +78,22 @@ def inverse_branches(robot: Robot, T: ArrayLike) -> FloatArray:
         NoClosedFormError: the arm has no closed form.
         ShapeError: T is not (4, 4).
     """
-    pose = floats("T", T, 4, 4)
-    if pose.ndim != 2:
+    pose = np.asarray(T, np.float64)
+    if pose.shape != (4, 4):
         raise ShapeError("T", "(4, 4)", pose.shape)
-    form = closed_form(robot)
-    scalar = _scalar_form(robot)
-    joints = scalar.solve(pose) if scalar else None
-    if joints is not None:
-        return np.array(joints).reshape(-1, robot.dof)
+    form, scalar = _forms(robot)
+    q = scalar.solve(pose) if scalar else None
+    if q is not None:
+        return q
     q = solve_block(form, pose[None], robot.home)[:, :, 0]
     return np.asarray(q[~np.isnan(q).any(axis=1)])
 
 
 @lru_cache(maxsize=64)
-def _scalar_form(robot: Robot) -> ScalarParallelAxes | None:
+def _forms(robot: Robot) -> tuple[ClosedForm, ScalarParallelAxes | None]:
     form = closed_form(robot)
     scalar = ScalarParallelAxes(form) if isinstance(form, ParallelAxes) else None
-    return scalar if scalar and scalar.fits else None
+    return form, scalar if scalar and scalar.fits else None
 
 
 def _pose(T: ArrayLike) -> FloatArray:

@@ -23,7 +23,7 @@ from rvsim.spatial.arrays import FloatArray
 
 Rows = NDArray[np.intp]
 SINGULAR = 5e-10  # sin θ5: below it axis 6 is parallel to axes 2, 3, 4, and θ6 is free
-UNCERTAIN = 1e-5  # sin θ5: below it rounding moves θ6 so far that a stretched elbow may seem out of reach
+UNCERTAIN = 1e-4  # sin θ5: below it rounding moves θ6 so far that a stretched elbow may seem out of reach
 HARMLESS = 1e-10  # sin θ5 times a turn of θ6: what such a turn changes of the pose
 
 

@@ -91,6 +91,19 @@ def test_at_and_beside_round_angles_there_is_a_branch_and_none_that_is_slightly_
     assert np.nanmax(right(robot, q, T, ARMS[name])) < 1e-9
 
 
+@pytest.mark.parametrize("edit", EDITS)
+def test_beside_a_free_wrist_and_a_straight_elbow_one_pose_has_the_branches_of_the_batch(edit):
+    robot = EDITS[edit](load_robot("ur5e"))
+    rng = np.random.default_rng(6)
+    q = rng.uniform(-np.pi, np.pi, (500, 6))
+    q[:, 2], q[:, 4] = 10.0 ** rng.uniform(-13.0, -4.0, 500), 10.0 ** rng.uniform(-9.0, -1.0, 500)
+    T = forward_kinematics(robot, q)
+    for pose, batch in zip(T, inverse_kinematics_batch(robot, T), strict=True):
+        ours = inverse_branches(robot, pose)
+        assert 0 < len(ours) == (~np.isnan(batch[:, 0])).sum()
+        assert right(robot, ours[None], pose[None], ARMS["ur5e"]).max() < 1e-9
+
+
 def test_angles_come_within_half_a_turn(random_q):
     robot = load_robot("ur5e")
     q = inverse_kinematics_batch(robot, forward_kinematics(robot, random_q(robot, 200)))
@@ -113,6 +126,13 @@ def test_in_plain_floats_a_ur5e_has_the_same_branches_in_the_same_order(random_q
         ours = inverse_branches(robot, pose)
         assert len(ours) == (~np.isnan(q[:, 0])).sum()
         assert apart(robot, ours, q[~np.isnan(q[:, 0])]).max(initial=0.0) < 1e-10
+
+
+@pytest.mark.parametrize("entry", [(0, 2), (1, 3), (2, 2), (2, 3)])
+def test_a_pose_that_is_not_finite_has_no_branches(entry):
+    T = forward_kinematics(load_robot("ur5e"), np.full(6, 0.3))
+    T[entry] = np.nan
+    assert inverse_branches(load_robot("ur5e"), T).shape == (0, 6)
 
 
 def test_a_pose_that_leans_out_of_the_arms_plane_is_solved_only_when_projected():
