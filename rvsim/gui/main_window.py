@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QByteArray, Qt
+from PySide6.QtCore import QByteArray, QElapsedTimer, Qt
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
 
@@ -42,6 +42,7 @@ _TOOLBAR_TEXTS = {
     "home": "⌂ Home", "zero": "0 Zero", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": "Iso", "box_zoom": "Box zoom",
     "look_stick": "Stick", "look_both": "Both", "dark": "◐ Dark",
 }  # fmt: skip
+_TELL_MS = 250
 _STATE_VERSION = 1
 _LEFT_WIDTH, _RIGHT_WIDTH = 284, 372
 
@@ -172,6 +173,7 @@ class MainWindow(QMainWindow):
         self.message = ElidedLabel()
         self.message.setObjectName("status_message")
         self.message.setAccessibleName("Message")
+        self._told_time = QElapsedTimer()
         self.renderer_label = QLabel(choice.name)
         self.renderer_label.setObjectName("renderer_label")
         self.renderer_label.setToolTip(choice.reason)
@@ -195,6 +197,10 @@ class MainWindow(QMainWindow):
         set_role(self.message, level=level)
 
     def _show_frame_time(self, milliseconds: float) -> None:
+        # Nobody reads a number that changes with every frame, and each change lays the status line out anew.
+        if self._told_time.isValid() and self._told_time.elapsed() < _TELL_MS:
+            return
+        self._told_time.start()
         self.renderer_label.setText(f"{self.scene_view.renderer.description}, {milliseconds:.1f} ms")
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:

@@ -41,9 +41,17 @@ class ReadOutPanel(QWidget):
             self._refresh_if_seen()
 
     def _refresh_if_seen(self) -> None:
-        self._stale = not self.isVisible()
+        # A dock behind another one is visible for Qt, but lies outside the window.
+        self._stale = not self.isVisible() or self.visibleRegion().isEmpty()
         if not self._stale:
             self.refresh()
+
+    def event(self, event: QEvent) -> bool:
+        """Catch up when the dock comes to the front: Qt tells of it by a paint alone."""
+        if event.type() == QEvent.Type.Paint and self._stale:
+            self._stale = False
+            self.refresh()
+        return super().event(event)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Catch up with what happened while hidden."""
