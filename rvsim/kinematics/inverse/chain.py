@@ -89,8 +89,11 @@ class Chain:
             values -= self.offset[:, None]
         if (self.sign < 0.0).any():
             values *= self.sign[:, None]
-        for i, joint in enumerate(self.robot.joints):
-            if joint.revolute:
+        turning = self.robot.is_revolute
+        if values.shape[-1] == 1:  # one call for one pose; for many, parts that stay in the cache
+            values[:, turning] = wrap(values[:, turning])
+        else:
+            for i in np.flatnonzero(turning):
                 wrap(values[:, i])
         return values
 

@@ -60,9 +60,8 @@ class SphericalWrist(ClosedForm):
         q = empty_rows(4, 2, 6, S.shape[2])
         q[:, :, :3] = arm[:, None]
         for k, side in enumerate(waist.sides):
-            in_plane = plane_entries(S, side)
-            for branch in range(2 * k, 2 * k + 2):
-                solve_wrist(in_plane, arm[branch, 1] + arm[branch, 2], float(free[3]), q[branch])
+            elbows = slice(2 * k, 2 * k + 2)
+            solve_wrist(plane_entries(S, side), arm[elbows, 1] + arm[elbows, 2], float(free[3]), q[elbows])
         return q.reshape(8, 6, -1)
 
 
@@ -76,7 +75,7 @@ def plane_entries(S: FloatArray, side: Side) -> FloatArray:
 
 
 def solve_wrist(in_plane: FloatArray, bend: FloatArray, free4: float, q: FloatArray) -> None:
-    """θ4, θ5, θ6 into q (2, 6, m), for sin θ5 above and below 0; bend = θ2 + θ3.
+    """θ4, θ5, θ6 into q (elbows, 2, 6, m), for sin θ5 above and below 0; bend = θ2 + θ3 is (elbows, m).
 
     With the rotation R of frame 6 in frame 3: (c4 s5, s4 s5, −c5) is its third column; then θ6 from the row across
     axis 4, which needs no division by sin θ5.
@@ -89,9 +88,10 @@ def solve_wrist(in_plane: FloatArray, bend: FloatArray, free4: float, q: FloatAr
     singular = sine < _SINGULAR
     if singular.any():
         c4[singular], s4[singular] = math.cos(free4), math.sin(free4)
-    q[0, 3] = np.arctan2(s4, c4)
-    q[0, 4] = np.arctan2(sine, -down)
-    q[0, 5] = np.arctan2(s4 * (c * xr + s * xz) - c4 * xn, s4 * (c * yr + s * yz) - c4 * yn)
-    np.add(q[0, 3], math.pi, out=q[1, 3])
-    np.negative(q[0, 4], out=q[1, 4])
-    np.add(q[0, 5], math.pi, out=q[1, 5])
+    plus, minus = q[:, 0], q[:, 1]
+    plus[:, 3] = np.arctan2(s4, c4)
+    plus[:, 4] = np.arctan2(sine, -down)
+    plus[:, 5] = np.arctan2(s4 * (c * xr + s * xz) - c4 * xn, s4 * (c * yr + s * yz) - c4 * yn)
+    np.add(plus[:, 3], math.pi, out=minus[:, 3])
+    np.negative(plus[:, 4], out=minus[:, 4])
+    np.add(plus[:, 5], math.pi, out=minus[:, 5])
