@@ -46,7 +46,7 @@ def freedom_of(robot: Robot, task: str, solver: str) -> Freedom:
     """The handles that this arm can follow when that is asked of it."""
     if task == "x,y":
         return Freedom("xy", (), task)
-    if task == "position":
+    if task.startswith("position") and task not in ("position+pitch+roll", "position+yaw"):
         return Freedom("xyz", (), task)
     if task == "position+yaw":
         return Freedom("xyz", (("z", -1),), task)

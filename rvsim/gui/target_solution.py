@@ -43,9 +43,11 @@ TASK_TITLES = {
     "position+pitch+roll": "Position, pitch and roll: keep the cup level",
     "position+yaw": "Position and yaw",
     "position": "Position only",
+    "position, wrist kept": "Wrist kept as it is relative to the arm",
     "x,y": "Position in the plane, x and y",
 }
-_PLACES = ("position", "x,y")  # tasks that leave the whole orientation open
+_KEPT = {"position, wrist kept": (3, 4)}  # the joints that a task leaves as they are
+_PLACES = ("position", "position, wrist kept", "x,y")  # tasks that leave the whole orientation open
 _HERE = 1e-9  # [rad, m] a branch so close is where the arm is
 
 
@@ -188,7 +190,9 @@ def nearest_pose(answer: Answer) -> NearestPose:
     """The nearest pose for a target that cannot be had. It takes 20 to 100 ms: not for the window's own thread."""
     question, failure = answer.question, answer.failure
     robot = question.robot
-    limits = np.tile([-np.inf, np.inf], (robot.dof, 1)) if question.ignore_limits else robot.limits
+    limits = np.tile([-np.inf, np.inf], (robot.dof, 1)) if question.ignore_limits else robot.limits.copy()
+    kept = list(_KEPT.get(question.task, ()))
+    limits[kept] = question.q[kept, None]
     sentence = failure.reason if failure is not None else immediate_sentence(answer)
     q = None if failure is None else failure.nearest.q
     if q is None or (not question.ignore_limits and limit_violations(robot, q)):

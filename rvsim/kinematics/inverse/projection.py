@@ -20,7 +20,7 @@ def nearest_orientation(chain: Chain, T: FloatArray) -> FloatArray:
     Raises:
         NoClosedFormError: the tool tip lies beside the roll axis.
     """
-    _require_tip_on_roll_axis(chain)
+    require_tip_on_roll_axis(chain)
     T_0_tool = chain.T_0_base @ T
     axis = T_0_tool[:, :3, :3] @ chain.T_tool_n[:3, 2]
     turned = rotation_onto(axis, _projected(axis, _plane_normals(T_0_tool[:, :3, 3], axis)))
@@ -35,7 +35,7 @@ def turned_about_vertical(chain: Chain, T: FloatArray) -> FloatArray:
     Raises:
         NoClosedFormError: the tool tip lies beside the roll axis.
     """
-    _require_tip_on_roll_axis(chain)
+    require_tip_on_roll_axis(chain)
     T_0_tool = chain.T_0_base @ T
     (x, y, _), (ax, ay, _) = T_0_tool[:, :3, 3].T, (T_0_tool[:, :3, :3] @ chain.T_tool_n[:3, 2]).T
     turn = np.arctan2(ax * y - ay * x, ax * x + ay * y)
@@ -61,7 +61,8 @@ def has_tip_on_roll_axis(chain: Chain) -> bool:
     return bool(np.abs(chain.T_n_tool[:2, 3]).max() <= TOLERANCE)
 
 
-def _require_tip_on_roll_axis(chain: Chain) -> None:
+def require_tip_on_roll_axis(chain: Chain) -> None:
+    """Raises NoClosedFormError for a tool tip beside the roll axis."""
     if not has_tip_on_roll_axis(chain):
         raise NoClosedFormError(chain.robot.name, "the tool tip must lie on the roll axis to keep its place.")
 

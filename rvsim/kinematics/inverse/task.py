@@ -14,7 +14,8 @@ from rvsim.kinematics.inverse.closed_form import ClosedForm
 from rvsim.kinematics.inverse.copies import limit_copies
 from rvsim.kinematics.inverse.five_axis import FiveAxis
 from rvsim.kinematics.inverse.free_pitch import free_pitches
-from rvsim.kinematics.inverse.projection import turned_about_vertical
+from rvsim.kinematics.inverse.kept_wrist import kept_wrist
+from rvsim.kinematics.inverse.projection import require_tip_on_roll_axis, turned_about_vertical
 from rvsim.kinematics.inverse.rrrp import RollAndExtend
 from rvsim.kinematics.inverse.textbook import Planar, Scara, yaw_of
 from rvsim.spatial import rot_z
@@ -26,13 +27,15 @@ POSE_ENTRIES, PLACE_ENTRIES = 6, 3  # how many numbers of a pose a task asks for
 class Candidates(NamedTuple):
     """Joints (b, n), NaN rows where a branch does not exist, their labels, and what they are to be checked against.
 
-    T_goal (4, 4) is the target as the arm can understand it; `entries` is 6 if all of it counts, 3 if only the place.
+    T_goal (4, 4) is the target as the arm can understand it; `entries` is 6 if all of it counts, 3 if only the place;
+    joints that are `held` stay as they are.
     """
 
     q: FloatArray
     labels: tuple[str, ...]
     T_goal: FloatArray
     entries: int
+    held: tuple[int, ...] = ()
 
 
 Solver = Callable[[ClosedForm, FloatArray, FloatArray], Candidates]
@@ -118,8 +121,17 @@ def _best_pitch(form: FiveAxis, place: FloatArray, pitches: FloatArray, branch: 
     return np.asarray(q[best])
 
 
+def _place_with_kept_wrist(form: ClosedForm, T: FloatArray, near: FloatArray) -> Candidates:
+    """The place alone for a 5R arm, its two wrist joints kept."""
+    assert isinstance(form, FiveAxis)
+    require_tip_on_roll_axis(form.chain)
+    place = frame_entries(form.chain, T[None], flange=False)[:, 3, 0]
+    return Candidates(kept_wrist(form, place, near), form.labels, T, PLACE_ENTRIES, held=(3, 4))
+
+
 _OTHER_TASKS: dict[tuple[type[ClosedForm], str], Solver] = {
     (FiveAxis, "position+pitch+roll"): _pitch_and_roll,
     (FiveAxis, "position"): _place_with_free_pitch,
+    (FiveAxis, "position, wrist kept"): _place_with_kept_wrist,
     (RollAndExtend, "position"): _place_with_roll,
 }

@@ -50,8 +50,10 @@ def reach_failure(form: ClosedForm, found: Candidates, here: FloatArray, order: 
 
 
 def _search(form: ClosedForm, found: Candidates, here: FloatArray, bounds: FloatArray, starts: FloatArray) -> Nearest:
-    place_only = found.entries != POSE_ENTRIES
-    return nearest_configuration(form.chain.robot, found.T_goal, here, bounds, starts, place_only=place_only)
+    place_only, held = found.entries != POSE_ENTRIES, list(found.held)
+    allowed = bounds.copy()
+    allowed[held] = here[held, None]
+    return nearest_configuration(form.chain.robot, found.T_goal, here, allowed, starts, place_only=place_only)
 
 
 def _reaches(form: ClosedForm, T: FloatArray, here: FloatArray) -> bool:

@@ -208,6 +208,15 @@ def test_every_arm_offers_its_tasks_in_words_and_each_finds_where_the_arm_is(pan
         assert min(branch.distance for branch in panel.control.answer.usable) < 1e-6
 
 
+def test_with_the_wrist_kept_only_the_arm_moves(panel_of) -> None:
+    panel = panel_of("al5b", np.array([0.3, 1.0, -1.0, 0.2, 0.4]))
+    choose(panel, "ik_task_selector", "position, wrist kept")
+    wrist, box = panel.session.q[3:], panel.findChild(QWidget, "target_z")
+    box.setValue(box.value() + 8.0)
+    assert forward_kinematics(panel.session.robot, panel.session.q)[2, 3] == pytest.approx(box.quantity, abs=1e-9)
+    np.testing.assert_allclose(panel.session.q[3:], wrist, atol=1e-12)
+
+
 @pytest.mark.parametrize("solver", ["newton", "dls", "lm", "bfgs"])
 def test_a_numeric_solver_gives_one_row_with_its_errors(panel_of, solver: str) -> None:
     panel = panel_of("ur5e", UR5E)
