@@ -31,6 +31,8 @@ class HowPanel(ReadOutPanel):
     It follows one branch, that of the arm unless another is chosen; a click on a branch of the tree goes there.
     """
 
+    costly = True
+
     def __init__(self, session: Session, preferences: Preferences, parent: QWidget | None = None) -> None:
         super().__init__(session, preferences, parent)
         self.setObjectName("how_panel")

@@ -17,6 +17,7 @@ class ReadOutPanel(QWidget):
     """Calls `refresh()` when pose, arm or number format is another one; a hidden panel waits until it is shown."""
 
     settings: frozenset[str] = NUMBER_SETTINGS
+    costly = False  # then it waits behind another dock too, which Qt calls visible, though it lies outside the window
 
     def __init__(self, session: Session, preferences: Preferences, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -41,8 +42,7 @@ class ReadOutPanel(QWidget):
             self._refresh_if_seen()
 
     def _refresh_if_seen(self) -> None:
-        # A dock behind another one is visible for Qt, but lies outside the window.
-        self._stale = not self.isVisible() or self.visibleRegion().isEmpty()
+        self._stale = not self.isVisible() or (self.costly and self.visibleRegion().isEmpty())
         if not self._stale:
             self.refresh()
 
