@@ -71,6 +71,9 @@ def test_the_copies_hold_the_whole_table_in_full_precision(panel):
 
 
 def test_the_keyboard_copies_the_table(panel, qtbot):
+    panel.activateWindow()  # shortcuts are for the active window and what has the focus in it
+    panel.table.setFocus()
+    qtbot.waitUntil(panel.table.hasFocus)
     qtbot.keyClick(panel.table, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     assert QGuiApplication.clipboard().text().startswith("point\tx [mm]")
 
