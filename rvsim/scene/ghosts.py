@@ -22,6 +22,7 @@ GHOST_KEY = "ghost"
 _WIDTH, _ALPHA = 7.0, 0.50
 _LIT_ALPHA = 0.55
 _OUTSIDE_WIDTH, _OUTSIDE_ALPHA = 2.6, 0.85
+_MIXED = np.sqrt([2.0, 3.0, 5.0, 7.0, 11.0, 13.0])  # six numbers in one that tells them apart
 
 
 class Ghost(NamedTuple):
@@ -62,18 +63,23 @@ def _links(robot: Robot, T: FloatArray, palette: ScenePalette) -> list[Item]:
     """The links of many poses T (b, n + 1, 4, 4), joint by joint, and their tools."""
     tools = np.stack([T[:, -1, :3, 3], (T[:, -1] @ robot.T_flange_tool)[:, :3, 3]], axis=1)
     pieces = [*_bent_links(robot, T), (robot.dof, tools)]
-    joints = sorted({joint for joint, _ in pieces})
     return [
         Segments(
             f"{GHOST_KEY}s.link{joint}",
-            np.concatenate(
-                [np.repeat(points, 2, axis=1)[:, 1:-1].reshape(-1, 3) for j, points in pieces if j == joint]
-            ),
+            _distinct([points for owner, points in pieces if owner == joint]),
             _color(robot, joint, palette),
             _WIDTH,
         )
-        for joint in joints
+        for joint in sorted({joint for joint, _ in pieces})
     ]
+
+
+def _distinct(lines: Sequence[FloatArray]) -> FloatArray:
+    """(2m, 3) the pieces of lines (b, k, 3), each once: ghosts share their bases, and see-through lines add up."""
+    ends = np.concatenate([np.repeat(line, 2, axis=1)[:, 1:-1].reshape(-1, 6) for line in lines])
+    long = np.abs(ends[:, :3] - ends[:, 3:]).max(axis=1) > 1e-9
+    _, first = np.unique(np.round(ends[long] @ _MIXED, 7), return_index=True)
+    return np.asarray(ends[long][first].reshape(-1, 3))
 
 
 def _bent_links(robot: Robot, T: FloatArray) -> list[tuple[int, FloatArray]]:

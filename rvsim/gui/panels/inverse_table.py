@@ -34,6 +34,7 @@ from rvsim.robot import Robot
 
 SORT_ROLE = Qt.ItemDataRole.UserRole
 NAME_ROLE = Qt.ItemDataRole.UserRole + 1
+CELL_ROLE = Qt.ItemDataRole.UserRole + 2  # all that a number is painted with, in one question
 _TOP = QModelIndex()
 _HERE = 1e-6  # [rad, m] a branch so close is where the arm is
 # Texts as long as any that comes, so that columns stand still; a title may take two lines.
@@ -60,6 +61,14 @@ class Row(NamedTuple):
     def here(self) -> bool:
         """Whether the arm stands there."""
         return self.branch.distance < _HERE
+
+
+class _Cell(NamedTuple):
+    """A number as it is painted."""
+
+    text: str
+    usable: bool
+    here: bool
 
 
 class Column(NamedTuple):
@@ -196,6 +205,8 @@ class BranchModel(QAbstractTableModel):
         row, column = self.rows[index.row()], self.columns[index.column()]
         if role == Qt.ItemDataRole.DisplayRole:
             return column.text(row)
+        if role == CELL_ROLE:
+            return _Cell(column.text(row), row.usable, row.here)
         if role == SORT_ROLE:
             return column.value(row)
         if role == NAME_ROLE:
@@ -253,11 +264,12 @@ class _NumberDelegate(QStyledItemDelegate):
         chosen = bool(view.state & QStyle.StateFlag.State_Selected)
         if chosen:
             painter.fillRect(view.rect, view.palette.highlight())
-        brush = index.data(Qt.ItemDataRole.ForegroundRole)
-        color = view.palette.highlightedText() if chosen else brush or view.palette.text()
-        painter.setPen(color.color())
-        painter.setFont(index.data(Qt.ItemDataRole.FontRole) or view.font)
-        painter.drawText(view.rect.adjusted(4, 0, -5, 0), RIGHT, index.data())
+        cell: _Cell = index.data(CELL_ROLE)
+        roles = QPalette.ColorRole
+        usual = roles.Text if cell.usable else roles.PlaceholderText
+        painter.setPen(view.palette.color(roles.HighlightedText if chosen else usual))
+        painter.setFont(_bold() if cell.here else view.font)
+        painter.drawText(view.rect.adjusted(4, 0, -5, 0), RIGHT, cell.text)
 
 
 class BranchTable(QTableView):
@@ -312,8 +324,9 @@ class BranchTable(QTableView):
         for index, column in enumerate(self.branches.columns):
             widest = _WIDEST.get(column.head, "−888.8")
             width = max(metrics.horizontalAdvance(text) for text in (widest, f"{column.head} ▾"))
-            if index == 0:
-                width = max(width, QFontMetrics(_bold()).horizontalAdvance(_WIDEST_TITLE))
+            # The row where the arm stands is bold.
+            bold = _WIDEST_TITLE if index == 0 else widest
+            width = max(width, QFontMetrics(_bold()).horizontalAdvance(bold) + 2)
             self.setColumnWidth(index, width + 8)
             self.setItemDelegateForColumn(index, self._texts if column.left else self._numbers)
         self._fit_rows()
