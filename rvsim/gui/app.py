@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtCore import QCoreApplication, QMargins, Qt
 from PySide6.QtGui import QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication
 
@@ -23,6 +23,8 @@ from rvsim.gui.theme import load_fonts, wear_theme
 from rvsim.lab.lines import default_experiment
 from rvsim.resources import resource
 from rvsim.robot import Robot
+
+_FRAME = QMargins(8, 40, 8, 8)  # what a window manager puts around a window, at most
 
 
 def build_window(preferences: Preferences | None = None, *, robot: str = "", renderer: str = "") -> MainWindow:
@@ -82,8 +84,16 @@ def main(options: argparse.Namespace) -> int:
     reporter.parent_widget = lambda: window
     if options.screenshot:
         return save_screenshot(window, options)
-    available = window.screen().availableGeometry()
-    if window.width() > available.width() or window.height() > available.height():
-        window.resize(available.size() * 0.95)
-    window.show()
+    _open(window)
     return app.exec()
+
+
+def _open(window: MainWindow) -> None:
+    """Show the window with all of it on the screen, its title bar and borders too."""
+    available = window.screen().availableGeometry()
+    room = available.size().shrunkBy(_FRAME)
+    if window.width() <= room.width() and window.height() <= room.height():
+        window.show()
+        return
+    window.resize(window.size().boundedTo(room))
+    window.showMaximized()

@@ -70,7 +70,8 @@ class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
         for label, (x, y, _), seen in zip(self._labels, pixels.tolist(), _seen(pixels, frame).tolist(), strict=True):
             if seen:
                 place = (x + label.shift[0], y + label.shift[1])
-                draw_text(painter, place, label.text, label.color, label.size, self._background)
+                within = (frame.width, frame.height)
+                draw_text(painter, place, label.text, label.color, label.size, self._background, within)
 
     def _draw_letters(self, painter: QPainter, frame: Frame) -> None:
         for letters in self._letters:

@@ -191,12 +191,38 @@ def draw_labels(painter: QPainter, seen: Seen[Labels], lens: Lens, background: C
     for label, (x, y), shown in zip(seen.item.labels, seen.pixels.tolist(), visible.tolist(), strict=True):
         if shown and -200.0 < x < lens.width + 200.0 and -50.0 < y < lens.height + 50.0:
             place = (x + label.shift[0], y + label.shift[1])
-            draw_text(painter, place, label.text, label.color, label.size, background)
+            draw_text(painter, place, label.text, label.color, label.size, background, (lens.width, lens.height))
 
 
-def draw_text(painter: QPainter, place: tuple[float, float], text: str, color: Color, size: float, halo: Color) -> None:
-    """A text with a halo, its base line starting at `place` [pixels], on whole pixels of the device."""
+def draw_text(
+    painter: QPainter,
+    place: tuple[float, float],
+    text: str,
+    color: Color,
+    size: float,
+    halo: Color,
+    within: tuple[float, float] | None = None,
+) -> None:
+    """A text with a halo, its base line starting at `place` [pixels], on whole pixels of the device.
+
+    A text that would be cut by the edges of a picture `within` (width, height) is moved inside, or left out where most
+    of it lies outside: a number without its sign would be another number.
+    """
     ratio = painter.device().devicePixelRatioF()
-    left, up = text_anchor(size)
-    x, y = (round((at - by) * ratio) / ratio for at, by in zip(place, (left, up), strict=True))
-    painter.drawImage(QPointF(x, y), text_picture(text, color, size, halo, ratio))
+    picture, (left, up) = text_picture(text, color, size, halo, ratio), text_anchor(size)
+    x, y = place[0] - left, place[1] - up
+    if within is not None:
+        inside_x = moved_inside(x, picture.width() / ratio, within[0])
+        inside_y = moved_inside(y, picture.height() / ratio, within[1])
+        if inside_x is None or inside_y is None:
+            return
+        x, y = inside_x, inside_y
+    painter.drawImage(QPointF(round(x * ratio) / ratio, round(y * ratio) / ratio), picture)
+
+
+def moved_inside(start: float, length: float, room: float) -> float | None:
+    """Where a stretch begins that is to lie between 0 and `room`; None if more than half of it lies outside."""
+    outside = max(-start, start + length - room)
+    if outside > 0.5 * length:
+        return None
+    return min(max(start, 0.0), max(room - length, 0.0))
