@@ -113,6 +113,22 @@ def _action(window: QMainWindow, spec: ActionSpec) -> QAction:
     return action
 
 
-def shortcut_table() -> list[tuple[str, str, str]]:
-    """Menu, command and keys of every command."""
-    return [(spec.menu.replace("&", ""), spec.text, QKeySequence(spec.shortcut).toString(_NATIVE)) for spec in ACTIONS]
+def shortcut_table(window: QMainWindow) -> list[tuple[str, str, str]]:
+    """Menu, command and keys of everything in the window's menus that has keys."""
+    rows = []
+    for entry in window.menuBar().actions():
+        menu = entry.menu()
+        if isinstance(menu, QMenu):
+            rows += [(entry.text().replace("&", ""), text, keys) for text, keys in _keys_in(menu)]
+    return rows
+
+
+def _keys_in(menu: QMenu) -> list[tuple[str, str]]:
+    found = []
+    for action in menu.actions():
+        inner = action.menu()
+        if isinstance(inner, QMenu):
+            found += _keys_in(inner)
+        elif not action.shortcut().isEmpty():
+            found.append((action.text().replace("&", ""), action.shortcut().toString(_NATIVE)))
+    return found

@@ -19,6 +19,7 @@ from rvsim.gui.diagnostics import diagnostics
 from rvsim.gui.panels.user_robot import ask_what_to_open, ask_where_to_save, opened, saved
 from rvsim.gui.picture import save_image
 from rvsim.gui.quantities import format_quantity, joint_kind
+from rvsim.gui.text_dialog import TextDialog
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.tables import tracking_csv
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
@@ -241,7 +242,7 @@ class Commands(QObject):
         """All shortcuts in one table."""
         rows = "".join(
             f"<tr><td>{menu}</td><td>&nbsp;{text}&nbsp;</td><td><b>{keys}</b></td></tr>"
-            for menu, text, keys in shortcut_table()
+            for menu, text, keys in shortcut_table(self._window)
         )
         extra = (
             "<p>In a value box: ↑ ↓ step 1, with Shift 10, with Ctrl 0.1. In the scene: arrows turn, + and − zoom.</p>"
@@ -258,8 +259,4 @@ class Commands(QObject):
         )
 
     def _tell(self, title: str, text: str) -> None:
-        box = QMessageBox(QMessageBox.Icon.NoIcon, title, text, parent=self._window)
-        box.setTextFormat(Qt.TextFormat.RichText)
-        box.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        box.open()
+        TextDialog(self._window, title, text).open()

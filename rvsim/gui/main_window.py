@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from PySide6.QtCore import QByteArray, QElapsedTimer, Qt
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
+from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
 
 from rvsim.experiment import Experiment
 from rvsim.files import find_user_folder
@@ -44,6 +46,7 @@ _TOOLBAR_TEXTS = {
 }  # fmt: skip
 _TELL_MS = 250
 _STATE_VERSION = 1
+_MOST_WIDGETS = 1000  # that Tab may pass over
 _LEFT_WIDTH, _RIGHT_WIDTH = 284, 372
 
 
@@ -109,13 +112,42 @@ class MainWindow(QMainWindow):
             dock.setTitleBarWidget(QWidget())  # the tab says it already; a low screen needs the room
         docks[0].raise_()
         self._sized_docks = [arm, docks[0]]
-        panels = QMenu("Panels", self)
-        for dock in (arm, *docks):
-            panels.addAction(dock.toggleViewAction())
+        self._add_panel_menu([arm, *docks])
+
+    def _add_panel_menu(self, docks: list[QDockWidget]) -> None:
+        """Keys that bring each panel to the front, and switches that hide it."""
+        panels, hidden = QMenu("Panels", self), QMenu("Hide or show", self)
+        for number, dock in enumerate(docks, 1):
+            action = panels.addAction(dock.windowTitle())
+            action.setObjectName(f"action_go_to_{dock.objectName()}")
+            action.setShortcut(f"Alt+{number}")
+            action.triggered.connect(partial(self.go_to_panel, dock))
+            hidden.addAction(dock.toggleViewAction())
+        panels.addSeparator()
+        panels.addMenu(hidden)
         menu = self.findChild(QMenu, "view_menu")
         assert menu is not None
         menu.addSeparator()
         menu.addMenu(panels)
+
+    def go_to_panel(self, dock: QDockWidget, _checked: bool = False) -> None:
+        """Bring a panel to the front, with the focus in it."""
+        dock.show()
+        dock.raise_()
+        QApplication.sendPostedEvents()  # the dock takes its place, so that what lies in it can be seen
+        inside = [child for child in dock.widget().findChildren(QWidget) if _takes_tab(child)]
+        if inside:
+            inside[0].setFocus(Qt.FocusReason.ShortcutFocusReason)
+
+    def focusNextPrevChild(self, forward: bool) -> bool:
+        """Tab passes over the panels that lie behind others: Qt calls them visible, but nobody sees them."""
+        for _ in range(_MOST_WIDGETS):
+            if not super().focusNextPrevChild(forward):
+                return False
+            focused = QApplication.focusWidget()
+            if focused is None or not _lies_behind(focused):
+                return True
+        return True
 
     def _add_inverse(self, area: Qt.DockWidgetArea) -> QDockWidget:
         """The panel that brings the gizmo along; behind another dock it is not seen, though Qt calls it visible."""
@@ -260,3 +292,15 @@ class MainWindow(QMainWindow):
         self.preferences.keep_window_state("geometry", geometry)
         self.preferences.keep_window_state("layout", layout)
         super().closeEvent(event)
+
+
+def _takes_tab(widget: QWidget) -> bool:
+    return bool(widget.focusPolicy().value & Qt.FocusPolicy.TabFocus.value) and widget.isVisible()
+
+
+def _lies_behind(widget: QWidget) -> bool:
+    """Whether a widget is in a dock of which nothing can be seen."""
+    parent: QWidget | None = widget
+    while parent is not None and not isinstance(parent, QDockWidget):
+        parent = parent.parentWidget()
+    return parent is not None and parent.visibleRegion().isEmpty()

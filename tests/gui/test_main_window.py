@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication, QImage
+from PySide6.QtGui import QAction, QGuiApplication, QImage
 from PySide6.QtWidgets import QApplication, QDockWidget, QMessageBox, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -17,6 +17,7 @@ from rvsim.gui.app import build_window
 from rvsim.gui.commands import SWITCHES
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
+from rvsim.gui.text_dialog import TextDialog
 
 # These ask for a file or a name, or end the program: they are tested through what stands behind their dialogs.
 ASKING = {"open_robot", "save_robot", "save_picture", "save_csv", "save_pose", "quit"}
@@ -42,8 +43,9 @@ def test_every_command_can_be_triggered(window: MainWindow, name: str) -> None:
     window.motion.pause()
     window.actions_by_name[name].trigger()
     for box in QApplication.topLevelWidgets():
-        if isinstance(box, QMessageBox):
-            assert box.text()
+        if isinstance(box, TextDialog):
+            assert box.browser.toPlainText()
+            assert box.height() <= window.height()
             box.close()
 
 
@@ -57,10 +59,11 @@ def test_every_switch_sets_its_preference(window: MainWindow, name: str) -> None
         assert window.preferences[switch.preference] == switch.off
 
 
-def test_every_command_has_keys_and_no_two_share_them() -> None:
-    keys = [keys for _, _, keys in shortcut_table()]
-    assert all(keys)
+def test_every_command_has_keys_and_no_two_share_them(window: MainWindow) -> None:
+    rows = shortcut_table(window)
+    keys = [keys for _, _, keys in rows]
     assert sorted(set(keys)) == sorted(keys)
+    assert {spec.text for spec in ACTIONS} | {"Undo", "Redo", "Path"} <= {text for _, text, _ in rows}
 
 
 def test_units_change_what_is_shown_and_nothing_else(window: MainWindow) -> None:
@@ -171,3 +174,28 @@ def test_the_floor_is_in_metres_where_they_are_preferred(window: MainWindow) -> 
     window.preferences.set("length_unit", "m")
     floor = next(item for item in window.scene_view.scene.items if item.key == "floor.numbers")
     assert {"x [m]", "y [m]"} <= {label.text for label in floor.labels}
+
+
+def test_tab_walks_through_all_that_can_be_seen_and_comes_round(qtbot: QtBot, window: MainWindow) -> None:
+    window.activateWindow()
+    window.joints.robots.setFocus()
+    visited: list[str] = []
+    for _ in range(80):
+        focused = QApplication.focusWidget()
+        assert focused is not None
+        assert window.rect().contains(focused.mapTo(window, focused.rect().center())), focused.objectName()
+        visited.append(focused.objectName())
+        qtbot.keyClick(focused, Qt.Key.Key_Tab)
+    assert visited.count("robot_selector") >= 2
+    assert {"joint_value_5", "track_line_button", "track_trajectory_button", "scene_view"} <= set(visited)
+
+
+def test_each_panel_has_keys_that_bring_it_to_the_front(window: MainWindow) -> None:
+    for dock in window.findChildren(QDockWidget):
+        action = window.findChild(QAction, f"action_go_to_{dock.objectName()}")
+        assert not action.shortcut().isEmpty()
+        action.trigger()
+        assert not dock.visibleRegion().isEmpty()
+        focused = QApplication.focusWidget()
+        assert focused is not None
+        assert dock.isAncestorOf(focused)

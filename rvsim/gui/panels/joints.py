@@ -271,7 +271,8 @@ class JointsPanel(QWidget):
         self._show_poses()
 
     def _chain_tabs(self) -> None:
-        chain = [self.robots, *(w for row in self._rows for w in (row.box, row.slider)), self.plot, self.home]
+        boxes, sliders = [row.box for row in self._rows], [row.slider for row in self._rows]
+        chain = [self.robots, *boxes, *sliders, self.plot, self.home]  # values are typed one after the other
         for first, second in pairwise(chain):
             QWidget.setTabOrder(first, second)
 
