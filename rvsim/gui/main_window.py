@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import QByteArray, QElapsedTimer, Qt
+from PySide6.QtCore import QByteArray, QElapsedTimer, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
 
@@ -33,7 +33,7 @@ from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.target import TargetControl
 from rvsim.gui.target_scene import TargetScene
-from rvsim.gui.theme import set_role, wear_theme
+from rvsim.gui.theme import set_role, text_scale, wear_theme
 from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import ElidedLabel, column_of
@@ -250,6 +250,14 @@ class MainWindow(QMainWindow):
     def _on_preference(self, name: str) -> None:
         if name in ("theme", "presentation"):
             wear_theme(self.preferences)
+        if name == "presentation":
+            QTimer.singleShot(0, self, self._size_docks)
+
+    def _size_docks(self) -> None:
+        """Room for the panels' texts, as large as they are."""
+        scale = text_scale(self.preferences["presentation"])
+        widths = [round(scale * width) for width in (_LEFT_WIDTH, _RIGHT_WIDTH)]
+        self.resizeDocks(self._sized_docks, widths, Qt.Orientation.Horizontal)
 
     def say_welcome(self) -> None:
         """The first minute: what to do now."""
@@ -270,7 +278,7 @@ class MainWindow(QMainWindow):
         super().showEvent(event)
         if not self._laid_out:
             self._laid_out = True
-            self.resizeDocks(self._sized_docks, [_LEFT_WIDTH, _RIGHT_WIDTH], Qt.Orientation.Horizontal)
+            self._size_docks()
 
     def window_layout(self) -> tuple[QByteArray, QByteArray]:
         """Geometry and dock layout, as they are now."""

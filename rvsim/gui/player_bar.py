@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSignalBlocker, Qt
-from PySide6.QtGui import QFontMetrics
+from PySide6.QtCore import QSignalBlocker, QSize, Qt
+from PySide6.QtGui import QFontMetrics, QResizeEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QSlider, QToolButton, QWidget
 
 from rvsim.gui.motion_control import MotionControl
@@ -12,6 +12,7 @@ from rvsim.gui.quantities import format_number
 from rvsim.gui.theme import set_role
 
 _TICKS = 10_000
+_NARROWEST, _ROOM_FOR_SPEED, _ROOM_FOR_LOOP = 320, 460, 540  # [pixels]
 
 
 class PlayerBar(QWidget):
@@ -58,6 +59,16 @@ class PlayerBar(QWidget):
         motion.loaded.connect(self._show_loaded)
         preferences.changed.connect(self._on_preference)
         self._show_loaded()
+
+    def minimumSizeHint(self) -> QSize:
+        """As narrow as the buttons and the slider: the scene must not be held wide by what can be left out."""
+        return QSize(_NARROWEST, super().minimumSizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave out what does not fit: first the loop switch, then the speed."""
+        super().resizeEvent(event)
+        self.loop.setVisible(self.width() >= _ROOM_FOR_LOOP)
+        self.speed.setVisible(self.width() >= _ROOM_FOR_SPEED)
 
     def _button(self, object_name: str, text: str, tip: str, slot: object) -> QToolButton:
         button = QToolButton(self)

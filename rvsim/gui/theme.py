@@ -133,10 +133,16 @@ def apply_theme(app: QApplication, name: str, *, presentation: bool = False) -> 
     app.setStyle("Fusion")
     app.setPalette(_palette(theme))
     app.setFont(_font(app, presentation))
+    app.setProperty("text_scale", text_scale(presentation))
     shade = "dark" if theme.dark else "light"
     icons = {icon: resource("icons", f"{icon}-{shade}.svg").as_posix() for icon in ("arrow", "check")}
     app.setStyleSheet(_STYLE.format(**theme._asdict(), **icons))
     return theme
+
+
+def text_scale(presentation: bool) -> float:
+    """How much larger than usual everything is."""
+    return _PRESENTATION_SCALE if presentation else 1.0
 
 
 def wear_theme(preferences: Preferences) -> None:
@@ -178,7 +184,7 @@ def _font(app: QApplication, presentation: bool) -> QFont:
         natural = max(app.font().pointSizeF(), 9.0)
         app.setProperty("natural_point_size", natural)
     font = number_font(app.font())
-    font.setPointSizeF(float(natural) * (_PRESENTATION_SCALE if presentation else 1.0))
+    font.setPointSizeF(float(natural) * text_scale(presentation))
     return font
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtWidgets import QLabel, QWidget
 
 from rvsim.experiment import Experiment
@@ -47,7 +47,7 @@ class ToolCard(QLabel):
     def _on_preference(self, name: str) -> None:
         if name in _UNIT_SETTINGS:
             self._outline = ""
-            self._show()
+            QTimer.singleShot(0, self, self._show)  # when the theme has given the card its font
 
     def _show(self) -> None:
         robot = self._session.robot

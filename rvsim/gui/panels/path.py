@@ -339,7 +339,11 @@ class PathPanel(QWidget):
         self.result.show_tracking(tracking)
         if tracking is not None:
             # When the layout has made room for the sentence and the buttons, on a low screen too.
-            QTimer.singleShot(0, self, lambda: self._scroll.ensureWidgetVisible(self.result, 0, 0))
+            QTimer.singleShot(0, self, self._show_result)
+
+    def _show_result(self) -> None:
+        self._scroll.ensureWidgetVisible(self.result, 0, 0)
+        self._scroll.horizontalScrollBar().setValue(0)
 
     def _show(self, experiment: Experiment) -> None:
         self.line.show_task(experiment)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import shiboken6
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QCoreApplication, QPointF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QImage, QPainter, QPainterPath, QPen, QPolygonF
 
 from rvsim.scene import Color
@@ -81,6 +81,12 @@ def text_picture(text: str, color: Color, size: float, halo: Color, ratio: float
 def text_anchor(size: float) -> tuple[float, float]:
     """Where the left end of the base line lies in a `text_picture` (right, down) [pixels]."""
     return _HALO, _HALO + QFontMetricsF(_font(size)).ascent()
+
+
+def text_scale() -> float:
+    """How much larger than usual texts are to be: the theme says so, for a projector."""
+    app = QCoreApplication.instance()
+    return float((app.property("text_scale") if app is not None else None) or 1.0)
 
 
 def _font(size: float) -> QFont:

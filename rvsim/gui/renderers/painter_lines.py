@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF
 from PySide6.QtGui import QPainter, QPolygonF
 
-from rvsim.gui.renderers.painter_ink import Stroke, pen, polygon, qcolor, shaded, text_anchor, text_picture
+from rvsim.gui.renderers.painter_ink import Stroke, pen, polygon, qcolor, shaded, text_anchor, text_picture, text_scale
 from rvsim.gui.renderers.painter_lens import Lens, Seen, clipped_pieces
 from rvsim.gui.renderers.painter_raster import SolidPicture
 from rvsim.scene import Color, Dots, Labels, Polyline, Segments, Triads
@@ -208,7 +208,7 @@ def draw_text(
     A text that would be cut by the edges of a picture `within` (width, height) is moved inside, or left out where most
     of it lies outside: a number without its sign would be another number.
     """
-    ratio = painter.device().devicePixelRatioF()
+    ratio, size = painter.device().devicePixelRatioF(), size * text_scale()
     picture, (left, up) = text_picture(text, color, size, halo, ratio), text_anchor(size)
     x, y = place[0] - left, place[1] - up
     if within is not None:
