@@ -13,6 +13,8 @@ import sys
 import time
 
 FRAMES, MEMORY_FRAMES = 400, 10_000
+# Where a drag begins: all that it asks for can be reached. [degrees]
+_READY = {"rv-m1": (30.0, 40.0, -50.0, 20.0, 60.0), "ur5e": (20.0, -70.0, 100.0, -50.0, 60.0, 35.0)}
 
 
 def main() -> int:
@@ -112,13 +114,13 @@ def _drag_times(app: object, window: object, painted: list[float]) -> dict[str, 
     import numpy as np
     from PySide6.QtWidgets import QDockWidget
 
-    from rvsim.experiment import random_pose
     from rvsim.gui.target import Wish
     from rvsim.kinematics import forward_kinematics
 
     robot = window.session.robot  # type: ignore[attr-defined]
     window.findChild(QDockWidget, "inverse_dock").raise_()  # type: ignore[attr-defined]
-    window.session.move_to(0.7 * robot.home + 0.3 * random_pose(robot, 1), "Begin")  # type: ignore[attr-defined]
+    begin = np.radians(_READY[robot.name])
+    window.session.move_to(begin, "Begin")  # type: ignore[attr-defined]
     end = time.perf_counter() + 1.0
     while time.perf_counter() < end:
         app.processEvents()  # type: ignore[attr-defined]

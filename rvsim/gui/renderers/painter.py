@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -50,10 +51,9 @@ def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, hei
     Points that are nan, or behind the eye, are left out. Without `smooth` the solids' edges are rough, which is faster.
     """
     lens = Lens(camera, max(width, 1), max(height, 1))
-    painter.fillRect(0, 0, width, height, qcolor(scene.background))
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     layers = _layers(look_at(scene.items, lens))
-    _paint_floor(painter, layers, lens, scene.background)
+    _paint_floor(painter, layers, lens, camera, scene.background)
     _paint_ghosts(painter, layers.ghosts, lens, smooth)
     solids = render_solids(layers.solids, lens, painter.device().devicePixelRatioF(), smooth)
     if solids is not None:
@@ -100,17 +100,34 @@ def _line_strokes(seen: Seen[Item], lens: Lens, solids: SolidPicture | None) -> 
     return segments_strokes(Seen(item, eye, pixels), lens) if isinstance(item, Segments) else []
 
 
-def _paint_floor(painter: QPainter, layers: _Layers, lens: Lens, background: Color) -> None:
+def _paint_floor(painter: QPainter, layers: _Layers, lens: Lens, camera: Camera, background: Color) -> None:
     """The plate, the grid, and the shadow on them."""
-    for seen in layers.floor:
-        if isinstance(seen.item, Box):
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(qcolor(seen.item.color))
-            painter.drawPolygon(polygon(clipped_polygon(seen.eye[BOX_TOP], lens)))
-        for stroke in _line_strokes(seen, lens, None):
-            stroke.draw(painter)
+    floor = tuple(seen.item for seen in layers.floor)
+    ratio = painter.device().devicePixelRatioF()
+    painter.drawImage(0, 0, _floor_picture(floor, camera, int(lens.width), int(lens.height), ratio, background))
     if layers.floor and layers.solids:
         draw_shadow(painter, [seen.item for seen in layers.solids], lens, background)
+
+
+@lru_cache(maxsize=2)
+def _floor_picture(
+    floor: tuple[Item, ...], camera: Camera, width: int, height: int, ratio: float, background: Color
+) -> QImage:
+    """The background with the floor on it: while the arm moves and the eye rests, it is the same in every frame."""
+    picture = QImage(math.ceil(width * ratio), math.ceil(height * ratio), QImage.Format.Format_RGB32)
+    picture.setDevicePixelRatio(ratio)
+    picture.fill(qcolor(background))
+    lens = Lens(camera, width, height)
+    with QPainter(picture) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for seen in look_at(floor, lens):
+            if isinstance(seen.item, Box):
+                painter.setPen(Qt.PenStyle.NoPen)
+                painter.setBrush(qcolor(seen.item.color))
+                painter.drawPolygon(polygon(clipped_polygon(seen.eye[BOX_TOP], lens)))
+            for stroke in _line_strokes(seen, lens, None):
+                stroke.draw(painter)
+    return picture
 
 
 def _paint_ghosts(painter: QPainter, ghosts: list[Seen[Solid]], lens: Lens, smooth: bool) -> None:
