@@ -71,7 +71,7 @@ class JointRow(QWidget):
         self.slider.setObjectName(f"joint_slider_{index + 1}")
         self.slider.setAccessibleName(f"{title}, slider")
         self._lower, self._upper = QLabel(), QLabel()
-        self._mark = QLabel("outside its limits")
+        self._mark = QLabel("⚠")
         self._step = _SLIDER_STEPS[self._kind]
         self._lay_out(title, joint.color)
         self.slider.valueChanged.connect(self._on_slider)
@@ -91,6 +91,8 @@ class JointRow(QWidget):
         for label in (self._lower, self._upper):
             set_role(label, role="muted")
         set_role(self._mark, level="error")
+        self._mark.setToolTip(f"{title} is outside its limits")
+        self._mark.setAccessibleName(f"{title} is outside its limits")
         self._mark.hide()
         self.slider.setStyleSheet(_slider_style(color))
         top = QHBoxLayout()
