@@ -61,6 +61,12 @@ def format_number(value: float, decimals: int) -> str:
     return text.replace("-", "\u2212")
 
 
+def half_turn_up(angle: float, shown: Display) -> float:
+    """A direction [rad] that would be shown as −180° as +180°: the two are the same, and rounding chooses either."""
+    lowest = format_number(-math.pi * shown.factor, shown.decimals)
+    return angle + math.tau if format_number(angle * shown.factor, shown.decimals) == lowest else angle
+
+
 def format_quantity(value: float, kind: Kind, preferences: Preferences) -> str:
     """An SI value with its unit, as the screen shows it."""
     shown = display(kind, preferences)

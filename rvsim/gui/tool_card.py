@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import math
 import re
 
+import numpy as np
 from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtWidgets import QLabel, QWidget
 
 from rvsim.experiment import Experiment
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import Kind, display, format_number, length_kind
+from rvsim.gui.quantities import Kind, display, format_number, half_turn_up, length_kind
 from rvsim.gui.session import Session
 from rvsim.kinematics import forward_kinematics
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rpy_from_rotation
 
 _MARGIN = 12
-_DIGITS = re.compile(r"\d")
+_GAP = 14  # [pixels] between a number and the next name; a cell's width contains it
+_NUMBERS = re.compile(r"−?\d{1,4}")
+_WIDEST_LENGTH = -8.888  # [m]
 _UNIT_SETTINGS = ("angle_unit", "length_unit", "extra_decimals", "theme", "presentation")
 
 
@@ -56,18 +60,23 @@ class ToolCard(QLabel):
         angles = self._row(("roll", "pitch", "yaw"), rpy_from_rotation(T[:3, :3]), "angle")
         text = f"<table cellspacing=0>{lengths}{angles}</table>"
         self.setText(text)
-        # A label of a fixed size never makes the window lay itself out anew, and measuring takes a millisecond: with
-        # digits of equal width most numbers take the room of the last ones.
-        outline = _DIGITS.sub("0", text)
+        # A label of a fixed size never makes the window lay itself out anew, and measuring takes a millisecond: only a
+        # number that is too long for its column makes the card wider.
+        outline = _NUMBERS.sub("0", text)
         if outline != self._outline:
             self._outline = outline
             self.setFixedSize(self.sizeHint())
 
     def _row(self, names: tuple[str, ...], values: FloatArray, kind: Kind) -> str:
         shown = display(kind, self._preferences)
+        widest = format_number((-math.pi if kind == "angle" else _WIDEST_LENGTH) * shown.factor, shown.decimals)
+        width = self.fontMetrics().horizontalAdvance(widest) + _GAP
+        if kind == "angle":
+            values = np.array([half_turn_up(float(value), shown) for value in values])
         cells = "".join(
             f"<td style='padding-right:4px'><i>{name}</i></td>"
-            f"<td align=right style='padding-right:14px'>{format_number(value * shown.factor, shown.decimals)}</td>"
+            f"<td align=right width={width} style='padding-right:{_GAP}px'>"
+            f"{format_number(value * shown.factor, shown.decimals)}</td>"
             for name, value in zip(names, values, strict=True)
         )
         return f"<tr>{cells}<td>{shown.suffix.strip()}</td></tr>"

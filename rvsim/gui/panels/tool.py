@@ -11,7 +11,7 @@ from rvsim.gui.orientations import MATRIX, MATRIX_CONVENTION, NOTATIONS, Notatio
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.shown import NUMBER_SETTINGS, ReadOutPanel
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import Kind, display, format_scientific, length_kind
+from rvsim.gui.quantities import Kind, display, format_scientific, half_turn_up, length_kind
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
@@ -42,6 +42,7 @@ class NumberRow(QWidget):
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(2)
+        self._kinds, self._preferences = kinds, preferences
         self.boxes: list[QuantityBox] = []
         for column, (name, kind) in enumerate(zip(names, kinds, strict=True)):
             box = QuantityBox(kind, preferences, f"Tool {name}")
@@ -58,8 +59,9 @@ class NumberRow(QWidget):
 
     def show_values(self, values: FloatArray) -> None:
         """Show SI values, silently."""
-        for box, value in zip(self.boxes, values, strict=True):
-            box.set_quantity(float(value))
+        for box, kind, value in zip(self.boxes, self._kinds, values.tolist(), strict=True):
+            shown = half_turn_up(value, display(kind, self._preferences)) if kind == "angle" else value
+            box.set_quantity(shown)
 
 
 class ToolPanel(ReadOutPanel):
