@@ -77,8 +77,9 @@ class DHTablePanel(ReadOutPanel):
             table.setColumnHidden(column, column not in wanted)
         header = table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        # Where the room is short, a stretched column is cut: that of the longest texts may lose its gap, no more.
         header.setSectionResizeMode(
-            column_of_key("type" if "type" in columns else "name"), QHeaderView.ResizeMode.Stretch
+            column_of_key("theta" if "theta" in columns else "name"), QHeaderView.ResizeMode.Stretch
         )
         table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         table.setEditTriggers(

@@ -24,6 +24,7 @@ from rvsim.scene.points import source_points
 
 _AXES = ("x", "y", "z")
 _TOP = QModelIndex()
+_WIDEST = -8.888  # [m]
 _BASE_COLOR = "#8b96a3"
 
 
@@ -161,8 +162,8 @@ class PointsPanel(ReadOutPanel):
             self.note.setText(text)
 
     def _fit_columns(self) -> None:
-        """Wide enough for the longest number that the format can show, so that nothing jumps while the arm moves."""
-        widest = format_number(-8888.0, self.model.shown.decimals)
+        """Wide enough for the longest number of such an arm, so that nothing jumps while it moves."""
+        widest = format_number(_WIDEST * self.model.shown.factor, self.model.shown.decimals)
         width = text_metrics().horizontalAdvance(widest) + 9
         if width != self.table.columnWidth(1):
             for axis in (1, 2, 3):

@@ -295,3 +295,13 @@ def test_an_own_copy_has_the_short_title_and_stays_itself_when_copied_again(name
     own = own_copy(load_robot(name))
     assert own.title == title
     assert own_copy(own) is own
+
+
+@pytest.mark.parametrize("unit", ["mm", "m"])
+def test_every_column_shows_its_header_and_its_numbers(panel, preferences, unit):
+    preferences.set("length_unit", unit)
+    table, header = panel.rows, panel.rows.horizontalHeader()
+    for column in range(table.model().columnCount()):
+        if not table.isColumnHidden(column):
+            needed = max(header.sectionSizeHint(column), table.sizeHintForColumn(column))
+            assert table.columnWidth(column) >= needed, table.model().headerData(column, Qt.Orientation.Horizontal)

@@ -83,3 +83,9 @@ def test_it_keeps_the_rules_of_qt_models(panel, session_with):
     panel._session.move_to(np.zeros(5), "Zero")
     panel._session.use_robot(session_with("ur5e").robot)
     assert panel.model.rowCount() == 7
+
+
+@pytest.mark.parametrize("unit", ["mm", "m"])
+def test_no_name_is_cut_where_there_is_room(panel, preferences, unit):
+    preferences.set("length_unit", unit)
+    assert panel.table.columnWidth(0) >= panel.table.sizeHintForColumn(0)
