@@ -91,7 +91,8 @@ def _labels(palette: ScenePalette, grid: Extent, step: float, unit: str) -> tupl
     numbers = [_centred((place, beside_x, 0.0), _number(place, unit), muted) for place in x.tolist()]
     numbers += [_centred((beside_y, place, 0.0), _number(place, unit), muted) for place in y.tolist()]
     ends = ((grid.x_max, beside_x, 0.0), f"x [{unit}]"), ((beside_y, grid.y_max, 0.0), f"y [{unit}]")
-    return (*numbers, *(_centred(place, text, palette.text) for place, text in ends))
+    # The names first: where texts would lie on one another, the later ones are left out.
+    return (*(_centred(place, text, palette.text) for place, text in ends), *numbers)
 
 
 def _centred(position: tuple[float, float, float], text: str, color: Color) -> Label:

@@ -12,7 +12,8 @@ from PySide6.QtOpenGL import QOpenGLPaintDevice
 
 from rvsim.gui.renderers.opengl_binding import GLGraphicsItem
 from rvsim.gui.renderers.opengl_frame import Frame
-from rvsim.gui.renderers.painter_lines import draw_text
+from rvsim.gui.renderers.painter_ink import text_scale
+from rvsim.gui.renderers.painter_lines import draw_label, draw_text, label_room
 from rvsim.scene import Color, Label, Labels, Triads
 from rvsim.scene.palette import axis_colors
 
@@ -36,8 +37,7 @@ class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
 
     def __init__(self) -> None:
         super().__init__()
-        self._labels: list[Label] = []
-        self._places = np.empty((0, 3))
+        self._labels: list[tuple[Labels, list[Label], FloatArray]] = []
         self._letters: list[_Letters] = []
         self._background = Color(1.0, 1.0, 1.0)
 
@@ -45,9 +45,7 @@ class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
         """Show exactly the texts of these, with a halo in the background's colour."""
         shown = list(items)
         self._background = background
-        labels = [label for item in shown if isinstance(item, Labels) for label in item.labels]
-        self._labels = [label for label in labels if label.text and np.isfinite(label.position).all()]
-        self._places = np.array([label.position for label in self._labels], dtype=np.float64).reshape(-1, 3)
+        self._labels = [_texts(item) for item in shown if isinstance(item, Labels)]
         self._letters = [_letters(item, background) for item in shown if isinstance(item, Triads) and item.letters]
 
     def paint(self) -> None:
@@ -66,12 +64,13 @@ class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
             painter.end()  # a painter that outlives its picture would crash
 
     def _draw_labels(self, painter: QPainter, frame: Frame) -> None:
-        pixels = frame.camera.project(self._places, frame.width, frame.height)
-        for label, (x, y, _), seen in zip(self._labels, pixels.tolist(), _seen(pixels, frame).tolist(), strict=True):
-            if seen:
-                place = (x + label.shift[0], y + label.shift[1])
-                within = (frame.width, frame.height)
-                draw_text(painter, place, label.text, label.color, label.size, self._background, within)
+        scale = text_scale()
+        for item, labels, places in self._labels:
+            room = label_room(item, frame.width, frame.height)
+            pixels = frame.camera.project(places, frame.width, frame.height)
+            for label, (x, y, _), seen in zip(labels, pixels.tolist(), _seen(pixels, frame).tolist(), strict=True):
+                if seen:
+                    draw_label(painter, label, (x, y), self._background, room, scale)
 
     def _draw_letters(self, painter: QPainter, frame: Frame) -> None:
         for letters in self._letters:
@@ -81,6 +80,12 @@ class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
                 shown = _seen(starts, frame) & _seen(ends, frame)
                 for place in _beyond(starts[shown, :2], ends[shown, :2]):
                     draw_text(painter, place, text, color, _LETTER_SIZE, self._background)
+
+
+def _texts(item: Labels) -> tuple[Labels, list[Label], FloatArray]:
+    """An item with those of its labels that can be shown, and their places (k, 3)."""
+    labels = [label for label in item.labels if label.text and np.isfinite(label.position).all()]
+    return item, labels, np.array([label.position for label in labels], dtype=np.float64).reshape(-1, 3)
 
 
 def _letters(item: Triads, background: Color) -> _Letters:

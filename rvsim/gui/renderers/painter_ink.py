@@ -15,7 +15,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QImage, QPainter, QPaint
 from rvsim.scene import Color
 
 FloatArray = NDArray[np.float64]
-_HALO = 3.0  # [pixels]
+HALO = 3.0  # [pixels]
 
 
 class Stroke(NamedTuple):
@@ -64,15 +64,15 @@ def text_picture(text: str, color: Color, size: float, halo: Color, ratio: float
     """A text with a halo as a picture with transparent ground; its left base point is at `text_anchor`."""
     font = _font(size)
     metrics = QFontMetricsF(font)
-    width, height = metrics.horizontalAdvance(text) + 2 * _HALO, metrics.height() + 2 * _HALO
+    width, height = metrics.horizontalAdvance(text) + 2 * HALO, metrics.height() + 2 * HALO
     picture = QImage(int(width * ratio) + 1, int(height * ratio) + 1, QImage.Format.Format_ARGB32_Premultiplied)
     picture.setDevicePixelRatio(ratio)
     picture.fill(Qt.GlobalColor.transparent)
     path = QPainterPath()
-    path.addText(QPointF(_HALO, _HALO + metrics.ascent()), font, text)
+    path.addText(QPointF(HALO, HALO + metrics.ascent()), font, text)
     with QPainter(picture) as painter:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.strokePath(path, pen(halo.faded(0.85), _HALO))
+        painter.strokePath(path, pen(halo.faded(0.85), HALO))
         painter.fillPath(path, qcolor(color))
     return picture
 
@@ -80,7 +80,7 @@ def text_picture(text: str, color: Color, size: float, halo: Color, ratio: float
 @lru_cache(maxsize=64)
 def text_anchor(size: float) -> tuple[float, float]:
     """Where the left end of the base line lies in a `text_picture` (right, down) [pixels]."""
-    return _HALO, _HALO + QFontMetricsF(_font(size)).ascent()
+    return HALO, HALO + QFontMetricsF(_font(size)).ascent()
 
 
 def text_scale() -> float:

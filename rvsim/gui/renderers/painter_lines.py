@@ -10,10 +10,22 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF
 from PySide6.QtGui import QPainter, QPolygonF
 
-from rvsim.gui.renderers.painter_ink import Stroke, pen, polygon, qcolor, shaded, text_anchor, text_picture, text_scale
+from rvsim.gui.renderers.painter_ink import (
+    HALO,
+    Stroke,
+    pen,
+    polygon,
+    qcolor,
+    shaded,
+    text_anchor,
+    text_picture,
+    text_scale,
+)
 from rvsim.gui.renderers.painter_lens import Lens, Seen, clipped_pieces
 from rvsim.gui.renderers.painter_raster import SolidPicture
-from rvsim.scene import Color, Dots, Labels, Polyline, Segments, Triads
+from rvsim.gui.renderers.text_room import TextRoom
+from rvsim.scene import Color, Dots, Label, Labels, Polyline, Segments, Triads
+from rvsim.scene.floor import FLOOR_KEY
 from rvsim.scene.palette import axis_colors
 
 FloatArray = NDArray[np.float64]
@@ -188,10 +200,23 @@ def _axis_stroke(depth: float, line: FloatArray, color: Color, letter: str, back
 def draw_labels(painter: QPainter, seen: Seen[Labels], lens: Lens, background: Color) -> None:
     """All texts of an item."""
     visible = lens.before(seen.eye)
+    room, scale = label_room(seen.item, lens.width, lens.height), text_scale()
     for label, (x, y), shown in zip(seen.item.labels, seen.pixels.tolist(), visible.tolist(), strict=True):
         if shown and -200.0 < x < lens.width + 200.0 and -50.0 < y < lens.height + 50.0:
-            place = (x + label.shift[0], y + label.shift[1])
-            draw_text(painter, place, label.text, label.color, label.size, background, (lens.width, lens.height))
+            draw_label(painter, label, (x, y), background, room, scale)
+
+
+def label_room(item: Labels, width: float, height: float) -> TextRoom:
+    """Where the texts of an item may lie: the floor's numbers may not lie on one another, as they would from low."""
+    return TextRoom(width, height, apart=item.key.startswith(FLOOR_KEY))
+
+
+def draw_label(
+    painter: QPainter, label: Label, at: tuple[float, float], background: Color, room: TextRoom, scale: float
+) -> None:
+    """A label whose place is seen at a pixel, where there is room for it."""
+    place = (at[0] + scale * label.shift[0], at[1] + scale * label.shift[1])
+    draw_text(painter, place, label.text, label.color, label.size, background, room)
 
 
 def draw_text(
@@ -201,28 +226,17 @@ def draw_text(
     color: Color,
     size: float,
     halo: Color,
-    within: tuple[float, float] | None = None,
+    room: TextRoom | None = None,
 ) -> None:
     """A text with a halo, its base line starting at `place` [pixels], on whole pixels of the device.
 
-    A text that would be cut by the edges of a picture `within` (width, height) is moved inside, or left out where most
-    of it lies outside: a number without its sign would be another number.
+    A text that would be cut by the edges of the `room` is moved inside, or left out where most of it lies outside: a
+    number without its sign would be another number.
     """
     ratio, size = painter.device().devicePixelRatioF(), size * text_scale()
     picture, (left, up) = text_picture(text, color, size, halo, ratio), text_anchor(size)
-    x, y = place[0] - left, place[1] - up
-    if within is not None:
-        inside_x = moved_inside(x, picture.width() / ratio, within[0])
-        inside_y = moved_inside(y, picture.height() / ratio, within[1])
-        if inside_x is None or inside_y is None:
-            return
-        x, y = inside_x, inside_y
-    painter.drawImage(QPointF(round(x * ratio) / ratio, round(y * ratio) / ratio), picture)
-
-
-def moved_inside(start: float, length: float, room: float) -> float | None:
-    """Where a stretch begins that is to lie between 0 and `room`; None if more than half of it lies outside."""
-    outside = max(-start, start + length - room)
-    if outside > 0.5 * length:
-        return None
-    return min(max(start, 0.0), max(room - length, 0.0))
+    at: tuple[float, float] | None = (place[0] - left, place[1] - up)
+    if room is not None and at is not None:
+        at = room.place(*at, picture.width() / ratio, picture.height() / ratio, HALO)
+    if at is not None:
+        painter.drawImage(QPointF(round(at[0] * ratio) / ratio, round(at[1] * ratio) / ratio), picture)

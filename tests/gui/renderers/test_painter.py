@@ -11,7 +11,6 @@ from pytestqt.qtbot import QtBot
 
 from rvsim.files import load_robot
 from rvsim.gui.renderers.painter import PainterRenderer, scene_image
-from rvsim.gui.renderers.painter_lines import moved_inside
 from rvsim.kinematics import link_transforms
 from rvsim.scene import Box, Camera, Capsule, Color, Dots, Item, Label, Labels, Polyline, Scene, Segments, Triads
 from rvsim.scene.build import LOOKS, Look, SceneOptions, arm_items, compose
@@ -238,10 +237,3 @@ def test_a_ghost_arm_stands_behind_the_arm() -> None:
         _pixels(scene_image(haunted, camera, WIDTH, HEIGHT)) - _pixels(scene_image(scene, camera, WIDTH, HEIGHT))
     )
     assert (difference.max(axis=2) > 8).sum() < 400  # only along the smooth edges
-
-
-@pytest.mark.parametrize(
-    ("start", "expected"), [(10.0, 10.0), (-4.0, 0.0), (85.0, 80.0), (-11.0, None), (91.0, None), (0.0, 0.0)]
-)
-def test_a_text_is_moved_inside_or_left_out_but_never_cut(start: float, expected: float | None) -> None:
-    assert moved_inside(start, 20.0, 100.0) == expected
