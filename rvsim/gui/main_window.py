@@ -48,6 +48,9 @@ _TELL_MS = 250
 _STATE_VERSION = 1
 _MOST_WIDGETS = 1000  # that Tab may pass over
 _LEFT_WIDTH, _RIGHT_WIDTH = 284, 372
+_NARROWEST_RIGHT = 350  # [pixels] with all tabs readable at the usual size
+_SEPARATOR = 6  # [pixels] as in the style sheet
+_SCENE_SHARE = 0.4  # of the width, at least, unless the panels cannot do with the rest
 
 
 class MainWindow(QMainWindow):
@@ -256,8 +259,11 @@ class MainWindow(QMainWindow):
     def _size_docks(self) -> None:
         """Room for the panels' texts, as large as they are."""
         scale = text_scale(self.preferences["presentation"])
-        widths = [round(scale * width) for width in (_LEFT_WIDTH, _RIGHT_WIDTH)]
-        self.resizeDocks(self._sized_docks, widths, Qt.Orientation.Horizontal)
+        left, right = round(scale * _LEFT_WIDTH), round(scale * _RIGHT_WIDTH)
+        room = round((1.0 - _SCENE_SHARE) * self.width()) - 2 * _SEPARATOR
+        left = min(left, max(room - right, self.joints.minimumSizeHint().width()))  # the joints need the least
+        right = min(right, max(room - left, _NARROWEST_RIGHT))
+        self.resizeDocks(self._sized_docks, [left, right], Qt.Orientation.Horizontal)
 
     def say_welcome(self) -> None:
         """The first minute: what to do now."""

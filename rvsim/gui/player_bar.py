@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSignalBlocker, QSize, Qt
+from PySide6.QtCore import QEvent, QSignalBlocker, QSize, Qt, QTimer
 from PySide6.QtGui import QFontMetrics, QResizeEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QSlider, QToolButton, QWidget
 
@@ -12,7 +12,8 @@ from rvsim.gui.quantities import format_number
 from rvsim.gui.theme import set_role
 
 _TICKS = 10_000
-_NARROWEST, _ROOM_FOR_SPEED, _ROOM_FOR_LOOP = 320, 460, 540  # [pixels]
+_NARROWEST = 320  # [pixels]
+_WORDS = {True: ("❚❚ Pause", "▶ Play", "■ Stop"), False: ("❚❚", "▶", "■")}  # with words, and as signs alone
 
 
 class PlayerBar(QWidget):
@@ -22,14 +23,12 @@ class PlayerBar(QWidget):
         super().__init__(parent)
         self._motion, self._preferences = motion, preferences
         self.play = self._button("play_button", "▶ Play", "Play or pause (F5)", motion.toggle)
-        metrics = QFontMetrics(self.play.font())
-        self.play.setMinimumWidth(metrics.horizontalAdvance("❚❚ Pause") + 24)
         self.stop = self._button("stop_button", "■ Stop", "Stop and go back to the beginning", motion.stop)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setObjectName("time_slider")
         self.slider.setAccessibleName("Time")
         self.slider.setRange(0, _TICKS)
-        self.slider.setMinimumWidth(80)
+        self.slider.setMinimumWidth(60)
         self.slider.setPageStep(_TICKS // 20)
         self.slider.setSingleStep(_TICKS // 200)
         self.slider.valueChanged.connect(self._on_slider)
@@ -47,7 +46,7 @@ class PlayerBar(QWidget):
         self.loop = QCheckBox("Loop")
         self.loop.setObjectName("loop_switch")
         self.loop.toggled.connect(motion.set_loop)
-        row = QHBoxLayout(self)
+        row = self._row = QHBoxLayout(self)
         row.setContentsMargins(12, 4, 12, 4)
         row.setSpacing(8)
         for widget, stretch in (
@@ -58,6 +57,7 @@ class PlayerBar(QWidget):
         motion.state_changed.connect(self._show_state)
         motion.loaded.connect(self._show_loaded)
         preferences.changed.connect(self._on_preference)
+        self._show_words(words=True)
         self._show_loaded()
 
     def minimumSizeHint(self) -> QSize:
@@ -65,10 +65,36 @@ class PlayerBar(QWidget):
         return QSize(_NARROWEST, super().minimumSizeHint().height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Leave out what does not fit: first the loop switch, then the speed."""
+        """Leave out what does not fit."""
         super().resizeEvent(event)
-        self.loop.setVisible(self.width() >= _ROOM_FOR_LOOP)
-        self.speed.setVisible(self.width() >= _ROOM_FOR_SPEED)
+        self._fit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Larger letters need more room."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            QTimer.singleShot(0, self, self._fit)  # when the buttons have the font too
+
+    def _fit(self) -> None:
+        """Leave out what does not fit: first the words and the whole time, then the time."""
+        self.time.show()
+        self._show_words(words=True)
+        if self._needed() > self.width():
+            self._show_words(words=False)
+        self.time.setVisible(self._needed() <= self.width())
+
+    def _needed(self) -> int:
+        """How wide the row must be [pixels] for nothing in it to be cut."""
+        return self._row.minimumSize().width()
+
+    def _show_words(self, *, words: bool) -> None:
+        self._with_words = words
+        pause, _, stop = _WORDS[words]
+        self.play.setMinimumWidth(QFontMetrics(self.play.font()).horizontalAdvance(pause) + 24)
+        self.stop.setText(stop)
+        self._show_state(self._motion.player.state)
+        self._show_time(self._motion.player.time)
+        self._row.invalidate()
 
     def _button(self, object_name: str, text: str, tip: str, slot: object) -> QToolButton:
         button = QToolButton(self)
@@ -94,20 +120,20 @@ class PlayerBar(QWidget):
         there = self._motion.player.trajectory is not None
         for widget in (self.play, self.stop, self.slider):
             widget.setEnabled(there)
-        self._show_state(self._motion.player.state)
-        self._show_time(self._motion.player.time)
+        self._fit()
 
     def _show_state(self, state: str) -> None:
-        playing = state == "playing"
-        self.play.setText("❚❚ Pause" if playing else "▶ Play")
+        pause, play, _ = _WORDS[self._with_words]
+        self.play.setText(pause if state == "playing" else play)
 
     def _show_time(self, time: float) -> None:
         duration = self._motion.player.duration
         if self._motion.player.trajectory is None:
-            self.time.setText("No motion yet")
+            self.time.setText("No motion yet" if self._with_words else "")
             ticks = 0
         else:
-            self.time.setText(f"{format_number(time, 2)} / {format_number(duration, 2)} s")
+            whole = f" / {format_number(duration, 2)}" if self._with_words else ""
+            self.time.setText(f"{format_number(time, 2)}{whole} s")
             ticks = round(time / duration * _TICKS) if duration else 0
         with QSignalBlocker(self.slider):
             self.slider.setValue(ticks)

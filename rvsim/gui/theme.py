@@ -67,14 +67,14 @@ QMainWindow::separator {{ background: {window}; width: 6px; height: 6px; }}
 QMainWindow::separator:hover {{ background: {accent}; }}
 QToolTip {{ background: {raised}; color: {text}; border: 1px solid {border}; padding: 4px; }}
 QMenuBar {{ background: {window}; }}
-QToolBar {{ background: {window}; border: none; spacing: 4px; padding: 4px 8px; }}
-QToolBar::separator {{ background: {border}; width: 1px; margin: 4px 6px; }}
-QToolButton {{ border: 1px solid transparent; border-radius: 5px; padding: 4px 8px; }}
+QToolBar {{ background: {window}; border: none; spacing: 3px; padding: 4px 6px; }}
+QToolBar::separator {{ background: {border}; width: 1px; margin: 4px 3px; }}
+QToolButton {{ border: 1px solid transparent; border-radius: 5px; padding: 4px 6px; }}
+QToolButton#qt_toolbar_ext_button {{ padding: 0; background: {raised}; border-color: {border}; }}
 QToolButton:hover {{ background: {raised}; border-color: {border}; }}
 QToolButton:checked, QToolButton:pressed {{ background: {raised}; border-color: {accent}; }}
 QToolButton:focus {{ border-color: {accent}; }}
-QPushButton {{ background: {raised}; border: 1px solid {border}; border-radius: 5px; padding: 5px 8px;
-    min-width: 40px; }}
+QPushButton {{ background: {raised}; border: 1px solid {border}; border-radius: 5px; padding: 5px 8px; }}
 QPushButton:hover {{ border-color: {accent}; }}
 QPushButton:pressed, QPushButton:checked {{ background: {window}; border-color: {accent}; }}
 QPushButton:focus {{ border-color: {accent}; }}

@@ -66,6 +66,7 @@ def scrolled(inside: QWidget) -> QScrollArea:
     area.setWidgetResizable(True)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    inside.setMinimumWidth(1)  # never wider than the area, or what is beyond its edge could not be reached
     inside.setAutoFillBackground(False)
     area.viewport().setAutoFillBackground(False)
     return area

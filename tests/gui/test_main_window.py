@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication, QImage
-from PySide6.QtWidgets import QApplication, QDockWidget, QMessageBox, QWidget
+from PySide6.QtWidgets import QApplication, QDockWidget, QMessageBox, QScrollArea, QTabBar, QToolBar, QWidget
 from pytestqt.qtbot import QtBot
 
 from rvsim.files import load_robot, save_robot
@@ -199,3 +199,34 @@ def test_each_panel_has_keys_that_bring_it_to_the_front(window: MainWindow) -> N
         focused = QApplication.focusWidget()
         assert focused is not None
         assert dock.isAncestorOf(focused)
+
+
+def test_presentation_size_leaves_the_scene_its_share_and_takes_nothing_with_it(
+    qtbot: QtBot, window: MainWindow
+) -> None:
+    arm = window.findChild(QDockWidget, "arm_dock")
+    widths = arm.width(), window.scene_view.width()
+    window.preferences.set("presentation", True)
+    qtbot.waitUntil(lambda: arm.width() > widths[0])
+    assert window.scene_view.width() >= 0.39 * window.width()
+    window.preferences.set("presentation", False)
+    qtbot.waitUntil(lambda: (arm.width(), window.scene_view.width()) == widths)
+
+
+def test_on_a_small_screen_every_control_around_the_scene_can_be_reached(qtbot: QtBot, window: MainWindow) -> None:
+    window.hide()
+    window._laid_out = False  # as at the first start
+    window.resize(1024, 600)
+    window.show()
+    bar = window.player_bar
+    qtbot.waitUntil(lambda: bar.speed.geometry().right() <= bar.width())
+    assert bar.loop.geometry().right() <= bar.width()
+    tools = window.findChild(QToolBar, "toolbar")
+    assert tools.widgetForAction(window.actions_by_name["dark"]).isVisible()
+    tabs = next(bar for bar in window.findChildren(QTabBar) if bar.isVisible() and bar.count() > 1)
+    assert all(
+        tabs.tabRect(index).width() >= tabs.fontMetrics().horizontalAdvance(tabs.tabText(index))
+        for index in range(tabs.count())
+    )
+    area = window.findChild(QDockWidget, "path_dock").findChild(QScrollArea)
+    assert area.horizontalScrollBar().maximum() == 0

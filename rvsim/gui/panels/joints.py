@@ -318,7 +318,7 @@ class JointsPanel(QWidget):
         poses = self._session.experiment.poses
         with QSignalBlocker(self.poses):
             self.poses.clear()
-            self.poses.addItem("Poses…" if poses else "No pose saved")
+            self.poses.addItem("Poses…" if poses else "No poses")
             for pose in poses:
                 self.poses.addItem(pose.name)
         self.poses.setEnabled(bool(poses))
