@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import QByteArray, QElapsedTimer, Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent
+from PySide6.QtCore import QByteArray, QElapsedTimer, QEvent, Qt, QTimer
+from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent, QStatusTipEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
 
 from rvsim.experiment import Experiment
@@ -208,6 +208,7 @@ class MainWindow(QMainWindow):
         self.message = ElidedLabel()
         self.message.setObjectName("status_message")
         self.message.setAccessibleName("Message")
+        self._said = "", ""
         self._told_time = QElapsedTimer()
         self.renderer_label = QLabel(choice.name)
         self.renderer_label.setObjectName("renderer_label")
@@ -228,8 +229,21 @@ class MainWindow(QMainWindow):
     # --- what is shown ---------------------------------------------------------------------------------------------
 
     def _say(self, text: str, level: str) -> None:
+        self._said = text, level
         self.message.setText(text)
         set_role(self.message, level=level)
+
+    def event(self, event: QEvent) -> bool:
+        """Show what a command does in the place of the message, and the message again afterwards.
+
+        The status bar's own way would write it over the message.
+        """
+        if not isinstance(event, QStatusTipEvent):
+            return super().event(event)
+        text, level = (event.tip(), "") if event.tip() else self._said
+        self.message.setText(text)
+        set_role(self.message, level=level)
+        return True
 
     def _show_frame_time(self, milliseconds: float) -> None:
         # Nobody reads a number that changes with every frame, and each change lays the status line out anew.

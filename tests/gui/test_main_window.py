@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QGuiApplication, QImage
+from PySide6.QtGui import QAction, QGuiApplication, QImage, QStatusTipEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QMessageBox, QScrollArea, QTabBar, QToolBar, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -230,3 +230,12 @@ def test_on_a_small_screen_every_control_around_the_scene_can_be_reached(qtbot: 
     )
     area = window.findChild(QDockWidget, "path_dock").findChild(QScrollArea)
     assert area.horizontalScrollBar().maximum() == 0
+
+
+def test_what_a_command_does_takes_the_place_of_the_message_for_a_while(window: MainWindow) -> None:
+    window.session.warn("Not moved.")
+    QApplication.sendEvent(window, QStatusTipEvent("Look straight down"))
+    assert window.message.text() == "Look straight down"
+    assert not window.statusBar().currentMessage(), "nothing is written over the message"
+    QApplication.sendEvent(window, QStatusTipEvent(""))
+    assert (window.message.text(), window.message.property("level")) == ("Not moved.", "warning")
