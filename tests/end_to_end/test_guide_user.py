@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QAbstractButton, QComboBox, QDoubleSpinBox, QLabel, QSlider, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -159,3 +160,38 @@ def test_every_arm_can_be_taken_and_posed(window: MainWindow) -> None:
         for joint in range(robot.dof):
             box = find(window, QDoubleSpinBox, f"joint_value_{joint + 1}")
             assert box.quantity == pytest.approx(float(window.session.q[joint]))
+
+
+POSE_TEXT = "30, 40, -50, 20, 60"
+
+
+def test_a_whole_pose_is_pasted_into_any_joint(qtbot: QtBot, window: MainWindow) -> None:
+    box = find(window, QDoubleSpinBox, "joint_value_4")
+    QGuiApplication.clipboard().setText(POSE_TEXT)
+    box.setFocus()
+    qtbot.keyClick(box, Qt.Key.Key_V, Qt.KeyboardModifier.ControlModifier)
+    assert values(window) == pytest.approx([30.0, 40.0, -50.0, 20.0, 60.0])
+    window.session.undo_stack.undo()
+    assert values(window) == [0.0] * 5, "all joints are one step"
+    type_into(qtbot, window, "joint_value_1", POSE_TEXT)
+    assert values(window) == pytest.approx([30.0, 40.0, -50.0, 20.0, 60.0])
+    type_into(qtbot, window, "joint_value_1", "1, 2, 3")
+    assert values(window) == pytest.approx([30.0, 40.0, -50.0, 20.0, 60.0])
+    assert "5 values" in message(window)
+    type_into(qtbot, window, "joint_value_1", "12,5")
+    assert values(window)[0] == pytest.approx(12.5)
+    assert box.lineEdit().text() == "20.0°"
+
+
+def test_enter_keeps_the_box_and_selects_its_number(qtbot: QtBot, window: MainWindow) -> None:
+    type_into(qtbot, window, "joint_value_2", "40")
+    box = find(window, QDoubleSpinBox, "joint_value_2")
+    assert window.focusWidget() is box
+    assert box.lineEdit().selectedText() == "40.0"
+
+
+def test_a_sliders_ends_say_how_far_it_goes(qtbot: QtBot, window: MainWindow) -> None:
+    row = find(window, QSlider, "joint_slider_3").parentWidget()
+    assert {"−110", "0"} <= {label.text() for label in row.findChildren(QLabel)}
+    press(qtbot, window, "ignore_limits_switch")
+    assert {"−180", "180"} <= {label.text() for label in row.findChildren(QLabel)}

@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -23,9 +23,10 @@ from PySide6.QtWidgets import (
 )
 
 from rvsim.experiment import Experiment, random_pose
+from rvsim.gui.panels.joint_box import JointBox
+from rvsim.gui.panels.tables import text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, joint_kind
-from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, scrolled
@@ -33,6 +34,7 @@ from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _IGNORE_HINT = "Switch “Ignore limits” on to go there."
+_LONGEST = "−1000.0 mm"
 _SLIDER_STEPS = {"angle": math.radians(0.1), "length": 1e-4, "unit_length": 1e-3}
 
 
@@ -64,9 +66,8 @@ class JointRow(QWidget):
         self._kind = joint_kind(robot, index)
         joint = robot.joints[index]
         title = f"J{index + 1} {joint.name}"
-        self.box = QuantityBox(self._kind, preferences, title)
+        self.box = JointBox(robot, index, preferences, title)
         self.box.setObjectName(f"joint_value_{index + 1}")
-        self.box.setFixedWidth(104)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setObjectName(f"joint_slider_{index + 1}")
         self.slider.setAccessibleName(f"{title}, slider")
@@ -74,6 +75,7 @@ class JointRow(QWidget):
         self._mark = QLabel("⚠")
         self._step = _SLIDER_STEPS[self._kind]
         self._lay_out(title, joint.color)
+        self._size_box()
         self.slider.valueChanged.connect(self._on_slider)
         self.slider.sliderReleased.connect(self.released)
         self.box.quantity_changed.connect(self._on_box)
@@ -112,17 +114,26 @@ class JointRow(QWidget):
         column.addLayout(top)
         column.addLayout(bottom)
 
+    def changeEvent(self, event: QEvent) -> None:
+        """Larger digits need a wider box."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self._size_box()
+
+    def _size_box(self) -> None:
+        self.box.setFixedWidth(max(104, text_metrics().horizontalAdvance(_LONGEST) + 18))
+
     def show_limits(self, ignore_limits: bool) -> None:
-        """Write the limits at the slider's ends and let box and slider go as far as they may."""
+        """Let box and slider go as far as they may, and write at the slider's ends how far that is."""
         lower, upper = self._robot.limits[self._index]
         taken = (-math.inf, math.inf) if ignore_limits else (float(lower), float(upper))
         self.box.set_range(taken[0], taken[1], _IGNORE_HINT)
         shown = display(self._kind, self._preferences)
         ends = slider_range(self._robot, self._index, ignore_limits)
+        decimals = 0 if self._kind == "angle" and shown.factor != 1.0 else shown.decimals
         for label, limit, end in zip((self._lower, self._upper), (lower, upper), ends, strict=True):
             free = math.isinf(limit)
-            decimals = 0 if self._kind == "angle" and shown.factor != 1.0 else shown.decimals
-            label.setText(format_number((end if free else limit) * shown.factor, decimals))
+            label.setText(format_number(end * shown.factor, decimals))
             label.setToolTip("No limit" if free else f"Limit: {limit * shown.factor:g}{shown.suffix}")
         with QSignalBlocker(self.slider):
             self.slider.setRange(math.ceil(ends[0] / self._step - 1e-6), math.floor(ends[1] / self._step + 1e-6))
@@ -266,6 +277,7 @@ class JointsPanel(QWidget):
             row.moved.connect(self._on_moved)
             row.released.connect(self._session.end_stroke)
             row.refused.connect(self._session.warn)
+            row.box.pose_given.connect(self._on_pose)
         self._joints_column.addStretch(1)
         self._chain_tabs()
         self._show_limits()
@@ -336,6 +348,21 @@ class JointsPanel(QWidget):
         else:
             self._show_pose()
             self._session.say("Typed, not drawn yet: press Plot.")
+
+    def _on_pose(self, values: tuple[float, ...]) -> None:
+        """All joints at once, in the shown units."""
+        robot = self._session.robot
+        if len(values) != robot.dof:
+            self._session.warn(f"A pose of the {robot.title} has {robot.dof} values, not {len(values)}.")
+            return
+        factors = [display(joint_kind(robot, index), self._preferences).factor for index in range(robot.dof)]
+        q = np.divide(values, factors)
+        if self._preferences["live"]:
+            self._session.move_to(q, "Paste pose")
+            return
+        self._typed = q
+        self._show_pose()
+        self._session.say("Typed, not drawn yet: press Plot.")
 
     def _on_ignore(self, on: bool) -> None:
         text = "Ignore limits" if on else "Respect limits"
