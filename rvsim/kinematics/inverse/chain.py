@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 
@@ -73,11 +74,7 @@ class Chain:
 
     def place(self, values: Sequence[float]) -> FloatArray:
         """The tool's origin (3,) in frame 0 for variables (n,) of the normal form, by the plain product of the rows."""
-        T = np.eye(4)
-        for i, (value, joint) in enumerate(zip(values, self.robot.joints, strict=True)):
-            theta, d = (value, self.d[i]) if joint.revolute else (self.theta[i], value)
-            T = T @ dh_transform(theta, d, self.a[i], self.alpha[i], "standard")
-        return np.asarray((T @ self.T_n_tool)[:3, 3])
+        return place_by_rows(self, values)
 
     def inner(self, q: FloatArray) -> FloatArray:
         """The variables of the normal form (..., n) of joint variables q (..., n)."""
@@ -147,3 +144,34 @@ def _positive_twist(a: float, alpha: float) -> tuple[float, float, float, bool]:
 def _x_part(a: float, alpha: float) -> FloatArray:
     """Tx(a) Rx(alpha)."""
     return transform(rot_x(alpha), np.array([a, 0.0, 0.0]))
+
+
+class StandardRows(Protocol):
+    """Standard DH rows of an arm: the constants of each row, and the tool behind the last one."""
+
+    @property
+    def robot(self) -> Robot: ...  # noqa: D102
+
+    @property
+    def theta(self) -> FloatArray: ...  # noqa: D102
+
+    @property
+    def d(self) -> FloatArray: ...  # noqa: D102
+
+    @property
+    def a(self) -> FloatArray: ...  # noqa: D102
+
+    @property
+    def alpha(self) -> FloatArray: ...  # noqa: D102
+
+    @property
+    def T_n_tool(self) -> FloatArray: ...  # noqa: D102
+
+
+def place_by_rows(rows: StandardRows, values: Sequence[float]) -> FloatArray:
+    """The tool's origin (3,) in frame 0, by the plain product of the rows; `values` are their angles (lengths)."""
+    T = np.eye(4)
+    for i, (value, joint) in enumerate(zip(values, rows.robot.joints, strict=True)):
+        theta, d = (value, rows.d[i]) if joint.revolute else (rows.theta[i], value)
+        T = T @ dh_transform(theta, d, rows.a[i], rows.alpha[i], "standard")
+    return np.asarray((T @ rows.T_n_tool)[:3, 3])

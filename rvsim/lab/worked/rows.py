@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rvsim.kinematics.dh import dh_transform
-from rvsim.kinematics.inverse.chain import TOLERANCE, Chain
+from rvsim.kinematics.inverse.chain import TOLERANCE, Chain, place_by_rows
 from rvsim.robot import Robot
 from rvsim.spatial import inverse_transform, rot_x, transform
 from rvsim.spatial.arrays import FloatArray
@@ -62,11 +61,7 @@ class Rows:
 
     def place(self, values: Sequence[float]) -> FloatArray:
         """The tool's origin (3,) in frame 0 for angles (lengths) of the rows."""
-        T = np.eye(4)
-        for i, (value, joint) in enumerate(zip(values, self.robot.joints, strict=True)):
-            theta, d = (value, self.d[i]) if joint.revolute else (self.theta[i], value)
-            T = T @ dh_transform(theta, d, self.a[i], self.alpha[i], "standard")
-        return np.asarray((T @ self.T_n_tool)[:3, 3])
+        return place_by_rows(self, values)
 
     def T_0_n(self, T: FloatArray) -> FloatArray:
         """The last frame (4, 4) in frame 0 of a tool pose (4, 4)."""
