@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QValidator, QWheelEvent
+from PySide6.QtGui import QKeyEvent, QResizeEvent, QValidator, QWheelEvent
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QWidget
 
 from rvsim.errors import ExpressionError
@@ -13,6 +13,7 @@ from rvsim.expressions import evaluate_in
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number, without_unit
 
+_MARGINS = 4  # [pixels] that the line edit keeps left and right of its text
 _KEPT_DECIMALS = 12  # the spin box rounds to these; the text shows far fewer
 _STEPS = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1, Qt.Key.Key_PageUp: 10, Qt.Key.Key_PageDown: -10}
 
@@ -79,12 +80,24 @@ class QuantityBox(QDoubleSpinBox):
         # Range and suffix make every layout around the box work anew: only when they are other ones.
         if span != (self.minimum(), self.maximum()):
             self.setRange(*span)
-        if shown.suffix != self.suffix():
-            self.setSuffix(shown.suffix)
         super().setValue(self._quantity * shown.factor)
+        suffix = shown.suffix if self._has_room_for(shown.suffix) else ""
+        if suffix != self.suffix():
+            self.setSuffix(suffix)
         self.lineEdit().setText(self.textFromValue(self.value()) + self.suffix())
         self.setToolTip(f"{self._title}: {self._quantity * shown.factor:.12g}{shown.suffix}")
         self.blockSignals(blocked)
+
+    def _has_room_for(self, unit: str) -> bool:
+        """Whether number and unit fit. A number that lost its sign would be another one; the tooltip has the unit."""
+        text = self.textFromValue(self.value()) + unit
+        return not self.isVisible() or self.fontMetrics().horizontalAdvance(text) <= self.lineEdit().width() - _MARGINS
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show the unit where there is room for it."""
+        super().resizeEvent(event)
+        if not self.lineEdit().isModified():
+            self._show()
 
     def _take(self, value: float) -> None:
         self._quantity = value / display(self._kind, self._preferences).factor
@@ -142,7 +155,7 @@ class QuantityBox(QDoubleSpinBox):
 
     def _evaluated(self, bare: str) -> float:
         """The value in the shown unit; another unit of the same kind may stand behind."""
-        return evaluate_in(self.suffix().strip(), bare)
+        return evaluate_in(display(self._kind, self._preferences).suffix.strip(), bare)
 
     def _is_untouched(self, bare: str) -> bool:
         """Whether nobody has typed since the text was shown: then the exact value behind the rounded text counts."""
@@ -150,7 +163,8 @@ class QuantityBox(QDoubleSpinBox):
 
     def _bare(self, text: str) -> str:
         """Without the unit; it stands there twice where the user typed it before the one that Qt keeps."""
-        return without_unit(without_unit(text, self.suffix()), self.suffix())
+        unit = display(self._kind, self._preferences).suffix
+        return without_unit(without_unit(text, unit), unit)
 
     def _problem(self, value: float) -> str:
         """Why a value in the shown unit cannot be taken, or nothing."""

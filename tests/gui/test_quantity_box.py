@@ -363,3 +363,22 @@ def test_a_read_only_box_leaves_the_wheel_to_what_scrolls_around_it(box):
 
 def test_it_has_a_name_for_screen_readers(box):
     assert box.accessibleName() == "J3 elbow"
+
+
+def test_a_narrow_box_gives_up_the_unit_before_the_sign(qtbot):
+    box = QuantityBox("length", Preferences(), "Line start y")
+    qtbot.addWidget(box)
+    box.set_quantity(-0.18)
+    box.resize(160, 30)
+    box.show()
+    assert box.text() == "\u2212180.0 mm"
+    needed = box.fontMetrics().horizontalAdvance("\u2212180.0")
+    box.resize(box.width() - box.lineEdit().width() + needed + 8, 30)
+    assert box.text() == "\u2212180.0"
+    assert "mm" in box.toolTip()
+    box.lineEdit().selectAll()
+    qtbot.keyClicks(box, "12 cm")
+    qtbot.keyClick(box, Qt.Key.Key_Return)
+    assert box.quantity == pytest.approx(0.12)
+    box.resize(160, 30)
+    assert box.text() == "120.0 mm"
