@@ -54,11 +54,13 @@ class Session(QObject):
 
     Signals:
         changed(before, after): the experiment is another one; compare what you show.
+        settled(before, after): the same, once all others have heard of it: the time to draw.
         tracking_changed(tracking or None): another path has been tracked, or none is any more.
         said(text, level): a sentence for the status line; level is "info", "warning" or "error".
     """
 
     changed = Signal(object, object)
+    settled = Signal(object, object)
     tracking_changed = Signal(object)
     said = Signal(str, str)
 
@@ -173,3 +175,4 @@ class Session(QObject):
         if experiment.robot is not before.robot:
             self.set_tracking(None)
         self.changed.emit(before, experiment)
+        self.settled.emit(before, experiment)

@@ -53,7 +53,7 @@ class Stage(QObject):
         self._glide.setDuration(_GLIDE_MS)
         self._glide.setEasingCurve(QEasingCurve.Type.InOutCubic)
         self._glide.valueChanged.connect(self._on_glide)
-        session.changed.connect(self._on_changed)
+        session.settled.connect(self._on_changed)
         session.tracking_changed.connect(self._on_tracking)
         motion.loaded.connect(self._on_loaded)
         preferences.changed.connect(self._on_preference)

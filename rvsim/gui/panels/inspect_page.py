@@ -1,0 +1,64 @@
+"""What every page of the inspector does: work only while it is seen, and take its drawing out of the scene with it."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QWidget
+
+from rvsim.gui.panels.shown import NUMBER_SETTINGS, ReadOutPanel
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.session import Session
+from rvsim.gui.stage import Stage
+from rvsim.scene.primitives import Item
+
+SCENE_SETTINGS = NUMBER_SETTINGS | {"theme"}
+
+
+class InspectPage(ReadOutPanel):
+    """A page: `refresh()` shows the present experiment and calls `draw(items)` for what belongs into the scene.
+
+    The container tells with `set_seen` whether the page can be seen; until then nothing is worked out.
+    """
+
+    title = ""  # on its button
+    name = ""  # of its layer in the scene, of its object and of its help page
+    settings = SCENE_SETTINGS
+
+    def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
+        super().__init__(session, preferences, parent)
+        self._stage = stage
+        self._seen = False
+        self.setObjectName(f"{self.name}_page")
+
+    @property
+    def seen(self) -> bool:
+        """Whether the page can be seen."""
+        return self._seen
+
+    def set_seen(self, seen: bool) -> None:
+        """The page comes to the front, or goes: then its drawing goes too."""
+        if seen == self._seen:
+            return
+        self._seen = seen
+        if seen:
+            self._refresh_if_seen()
+        else:
+            self.draw(())
+
+    def draw(self, items: tuple[Item, ...]) -> None:
+        """Show these items in the scene, instead of those before."""
+        self._stage.set_layer(self.name, items)
+
+    def _refresh_if_seen(self) -> None:
+        self._stale = not self._seen
+        if self._seen:
+            self.refresh()
+
+    def event(self, event: QEvent) -> bool:
+        """Being painted is not being seen: only the container knows."""
+        return QWidget.event(self, event)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """The same."""
+        QWidget.showEvent(self, event)
