@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
 
+from rvsim.kinematics import Failure
+from rvsim.kinematics.inverse.explain import DEGREES, METRES, MILLIMETRES, RADIANS, explain
 from rvsim.motion import Tracking, Unreached
 from rvsim.robot import Robot
 from rvsim.units import degrees_from_radians, millimetres_from_metres
@@ -24,6 +26,12 @@ class Units:
 
 _DEFAULT = Units()
 _FEWEST_JOINTS_TO_TURN = 4
+_SCALES = {"deg": DEGREES, "rad": RADIANS, "mm": MILLIMETRES, "m": METRES}
+
+
+def failure_sentence(failure: Failure, units: Units = _DEFAULT) -> str:
+    """Why an inverse problem has no solution; in degrees and millimetres this is its `reason`."""
+    return explain(failure, _SCALES[units.angle], _SCALES[units.length])
 
 
 def tracking_sentence(tracking: Tracking, units: Units = _DEFAULT) -> str:

@@ -1,52 +1,75 @@
-"""Failures in sentences a student can act on: numbers in degrees and millimetres."""
+"""Failures in sentences a student can act on, in the units of whoever asks."""
 
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING, NamedTuple
 
 from rvsim.kinematics.inverse.copies import LIMIT_TOLERANCE
-from rvsim.kinematics.inverse.result import Branch, Failure
-from rvsim.robot import Joint, Robot
+from rvsim.robot import Joint
+
+if TYPE_CHECKING:
+    from rvsim.kinematics.inverse.result import Failure
+
+_FINEST = 9  # decimals; numbers that agree so far are the same
 
 
-def angle_text(value: float) -> str:
-    """An angle [rad] for a sentence."""
-    return f"{math.degrees(value):.1f}°".replace("-", "−")
+class Scale(NamedTuple):
+    """How a sentence writes one kind of number: factor · SI value, with fixed decimals and a suffix."""
+
+    factor: float
+    decimals: int
+    suffix: str
+
+    def text(self, value: float) -> str:
+        """An SI value for a sentence."""
+        return self._text(value, self.decimals)
+
+    def apart(self, value: float, other: float) -> tuple[str, str]:
+        """Two SI values, with as many decimals as it takes to tell them apart: not "needs 90.0°, stops at 90.0°"."""
+        finer = ((self._text(value, d), self._text(other, d)) for d in range(self.decimals, _FINEST + 1))
+        return next((pair for pair in finer if pair[0] != pair[1]), (self.text(value), self.text(other)))
+
+    def _text(self, value: float, decimals: int) -> str:
+        number = round(self.factor * value, decimals) + 0.0  # −0.0 becomes 0.0
+        return f"{number:.{decimals}f}{self.suffix}".replace("-", "−")
 
 
-def length_text(robot: Robot, value: float) -> str:
-    """A length [m] for a sentence, in the unit the arm is shown in."""
-    text = f"{1e3 * value:.1f} mm" if robot.length_unit == "millimetre" else f"{value:.3f} units"
-    return text.replace("-", "−")
+DEGREES, RADIANS = Scale(180.0 / math.pi, 1, "°"), Scale(1.0, 3, " rad")
+MILLIMETRES, METRES, OWN_UNITS = Scale(1e3, 1, " mm"), Scale(1.0, 4, " m"), Scale(1.0, 3, " units")
 
 
-def explain_reach(robot: Robot, failure: Failure) -> str:
-    """Why a place cannot be reached."""
-    away = length_text(robot, failure.nearest.position_error)
+def explain(failure: Failure, angle: Scale = DEGREES, length: Scale = MILLIMETRES) -> str:
+    """Why not, in one sentence. An arm without a unit of length keeps its own."""
+    own = length if failure.robot.length_unit == "millimetre" else OWN_UNITS
+    if failure.kind == "limits":
+        return _explain_limits(failure, angle, own)
+    if failure.kind == "orientation":
+        turn, _ = angle.apart(failure.nearest.rotation_error, 0.0)
+        return f"The place can be reached, but not in this orientation: the nearest there is turned by {turn}."
+    away, _ = own.apart(failure.nearest.position_error, 0.0)
     return f"The place is out of reach: the nearest the tool gets is {away} away."
 
 
-def explain_orientation(failure: Failure) -> str:
-    """Why an orientation cannot be had."""
-    turn = angle_text(failure.nearest.rotation_error)
-    return f"The place can be reached, but not in this orientation: the nearest there is turned by {turn}."
-
-
-def explain_limits(robot: Robot, branch: Branch, count: int) -> str:
-    """Why no branch is within the limits; `branch` is the one nearest to them, of `count`."""
+def _explain_limits(failure: Failure, angle: Scale, length: Scale) -> str:
+    branch, count = failure.branch, failure.count
+    assert branch is not None, "limits are broken by a branch"
     broken = [
-        f"{joint.name} needs {_value(robot, joint, value)}, stops at {_value(robot, joint, broken_limit(joint, value))}"
-        for joint, value, margin in zip(robot.joints, branch.q.tolist(), branch.limit_margin.tolist(), strict=True)
+        _explain_joint(joint, value, angle if joint.revolute else length)
+        for joint, value, margin in zip(
+            failure.robot.joints, branch.q.tolist(), branch.limit_margin.tolist(), strict=True
+        )
         if margin < -LIMIT_TOLERANCE
     ]
     which = "The only branch is outside the limits" if count == 1 else f"All {count} branches are outside the limits"
     return f"{which}; nearest is “{branch.label}”: {'; '.join(broken)}."
 
 
+def _explain_joint(joint: Joint, value: float, scale: Scale) -> str:
+    needed, stop = scale.apart(value, broken_limit(joint, value))
+    return f"{joint.name} needs {needed}, stops at {stop}"
+
+
 def broken_limit(joint: Joint, value: float) -> float:
     """The limit a value breaks."""
     return joint.lower if value < joint.lower else joint.upper
-
-
-def _value(robot: Robot, joint: Joint, value: float) -> str:
-    return angle_text(value) if joint.revolute else length_text(robot, value)

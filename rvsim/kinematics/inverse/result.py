@@ -8,6 +8,8 @@ from functools import cached_property
 from typing import Literal, NamedTuple
 
 from rvsim.errors import UnknownNameError
+from rvsim.kinematics.inverse.explain import explain
+from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray
 
 FailureKind = Literal["reach", "orientation", "limits"]
@@ -49,19 +51,21 @@ class Nearest(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Failure:
-    """Why there is no solution. The nearest pose and the sentence are worked out when they are asked for.
+    """Why there is no solution: data, of which `explain` makes a sentence. The nearest pose is looked for when asked.
 
     kind: "reach", the place cannot be reached; "orientation", the place can, but not in this orientation; "limits", the
     arm could, but a joint would leave its limits: then `joint` is its name, `value` what it needs and `limit` where it
-    stops [rad, m] (else None).
+    stops [rad, m], `branch` the one of `count` that breaks the limits least (else None and 0).
     """
 
     kind: FailureKind
+    robot: Robot
     search: Callable[[], Nearest]
-    explain: Callable[[Failure], str]
     joint: str | None = None
     value: float | None = None
     limit: float | None = None
+    branch: Branch | None = None
+    count: int = 0
 
     @cached_property
     def nearest(self) -> Nearest:
@@ -80,8 +84,8 @@ class Failure:
 
     @cached_property
     def reason(self) -> str:
-        """One sentence, with numbers."""
-        return self.explain(self)
+        """One sentence, with its numbers in degrees and millimetres."""
+        return explain(self)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ import numpy as np
 from rvsim.kinematics.forward import forward_kinematics
 from rvsim.kinematics.inverse.batch import frame_entries
 from rvsim.kinematics.inverse.closed_form import ClosedForm
-from rvsim.kinematics.inverse.explain import broken_limit, explain_limits, explain_orientation, explain_reach
+from rvsim.kinematics.inverse.explain import broken_limit
 from rvsim.kinematics.inverse.five_axis import FiveAxis
 from rvsim.kinematics.inverse.nearest import nearest_configuration, place_in_reach
 from rvsim.kinematics.inverse.projection import has_tip_on_roll_axis, nearest_orientation
@@ -31,11 +31,13 @@ def limits_failure(form: ClosedForm, found: Candidates, branches: Sequence[Branc
     value = float(closest.q[joint])
     return Failure(
         "limits",
+        robot,
         partial(_search, form, found, here, robot.limits, np.array([branch.q for branch in branches])),
-        lambda _: explain_limits(robot, closest, len(branches)),
         robot.joint_names[joint],
         value,
         broken_limit(robot.joints[joint], value),
+        closest,
+        len(branches),
     )
 
 
@@ -45,8 +47,8 @@ def reach_failure(form: ClosedForm, found: Candidates, here: FloatArray, order: 
     anywhere = np.tile([-np.inf, np.inf], (robot.dof, 1))
     search = partial(_search, form, found, here, anywhere, here[None])
     if form.task == "pose" and found.entries == POSE_ENTRIES and _reaches(form, found.T_goal, here):
-        return Failure("orientation", partial(_nearest_turn, form, found, here, order, search), explain_orientation)
-    return Failure("reach", search, partial(explain_reach, robot))
+        return Failure("orientation", robot, partial(_nearest_turn, form, found, here, order, search))
+    return Failure("reach", robot, search)
 
 
 def _search(form: ClosedForm, found: Candidates, here: FloatArray, bounds: FloatArray, starts: FloatArray) -> Nearest:
