@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 from PySide6.QtCore import QByteArray, QElapsedTimer, QEvent, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent, QStatusTipEvent
-from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow, QMenu, QTabWidget, QToolBar, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QMenu, QToolBar, QWidget
 
 from rvsim.experiment import Experiment
 from rvsim.files import find_user_folder
@@ -14,8 +12,11 @@ from rvsim.gui.actions import make_actions
 from rvsim.gui.commands import Commands
 from rvsim.gui.gizmo_drag import GizmoDrag
 from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.page_stack import Page, PageStack
+from rvsim.gui.panel_docks import PanelDocks, lies_behind
 from rvsim.gui.panels.dh_table import DHTablePanel
 from rvsim.gui.panels.how import HowPanel
+from rvsim.gui.panels.inspect import INSPECT
 from rvsim.gui.panels.inverse import InversePanel
 from rvsim.gui.panels.joints import JointsPanel
 from rvsim.gui.panels.laboratory import LaboratoryPanel
@@ -45,7 +46,7 @@ _TOOLBAR_TEXTS = {
     "look_stick": "Stick", "look_both": "Both", "dark": "◐ Dark",
 }  # fmt: skip
 _TELL_MS = 250
-_STATE_VERSION = 1
+_STATE_VERSION = 2
 _MOST_WIDGETS = 1000  # that Tab may pass over
 _LEFT_WIDTH, _RIGHT_WIDTH = 284, 372
 _NARROWEST_RIGHT = 350  # [pixels] with all tabs readable at the usual size
@@ -90,57 +91,37 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(center)
 
     def _make_docks(self) -> None:
-        self.setDockOptions(
-            QMainWindow.DockOption.AnimatedDocks
-            | QMainWindow.DockOption.AllowTabbedDocks
-            | QMainWindow.DockOption.AllowNestedDocks
-        )
-        self.setTabPosition(Qt.DockWidgetArea.RightDockWidgetArea, QTabWidget.TabPosition.North)
-        left, right = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
-        arguments = (self.session, self.preferences)
-        arm = self._add_dock("arm_dock", "Arm", self.joints, left)
-        docks = [
-            self._add_dock("path_dock", "Path", PathPanel(*arguments, self.tracker), right),
-            self._add_inverse(right),
-            self._add_dock("how_dock", "How", HowPanel(*arguments), right),
-            self._add_laboratory(right),
-            self._add_dock("tool_dock", "Tool", ToolPanel(*arguments), right),
-            self._add_dock("matrices_dock", "Matrices", MatricesPanel(*arguments), right),
-            self._add_dock("points_dock", "Points", PointsPanel(*arguments), right),
-            self._add_dock("dh_dock", "DH", DHTablePanel(*arguments), right),
-        ]
-        for dock in docks[1:]:
-            self.tabifyDockWidget(docks[0], dock)
-        for dock in docks:
-            dock.setTitleBarWidget(QWidget())  # the tab says it already; a low screen needs the room
-        docks[0].raise_()
-        self._sized_docks = [arm, docks[0]]
-        self._add_panel_menu([arm, *docks])
-
-    def _add_panel_menu(self, docks: list[QDockWidget]) -> None:
-        """Keys that bring each panel to the front, and switches that hide it."""
-        panels, hidden = QMenu("Panels", self), QMenu("Hide or show", self)
-        for number, dock in enumerate(docks, 1):
-            action = panels.addAction(dock.windowTitle())
-            action.setObjectName(f"action_go_to_{dock.objectName()}")
-            action.setShortcut(f"Alt+{number}")
-            action.triggered.connect(partial(self.go_to_panel, dock))
-            hidden.addAction(dock.toggleViewAction())
-        panels.addSeparator()
-        panels.addMenu(hidden)
+        self.docks = PanelDocks(self, ("arm", "Arm", self.joints), self._right_panels())
         menu = self.findChild(QMenu, "view_menu")
         assert menu is not None
         menu.addSeparator()
-        menu.addMenu(panels)
+        menu.addMenu(self.docks.make_menu())
 
-    def go_to_panel(self, dock: QDockWidget, _checked: bool = False) -> None:
-        """Bring a panel to the front, with the focus in it."""
-        dock.show()
-        dock.raise_()
-        QApplication.sendPostedEvents()  # the dock takes its place, so that what lies in it can be seen
-        inside = [child for child in dock.widget().findChildren(QWidget) if _takes_tab(child)]
-        if inside:
-            inside[0].setFocus(Qt.FocusReason.ShortcutFocusReason)
+    def _right_panels(self) -> list[tuple[str, str, QWidget]]:
+        arguments = (self.session, self.preferences)
+        inverse = (
+            Page("inverse", "Solve", "Every branch for a wanted pose, and why not", self._make_inverse()),
+            Page("how", "How", "The closed form, step by step with this target's numbers", HowPanel(*arguments)),
+            Page("lab", "Lab", "Numeric solvers side by side", self._make_laboratory()),
+        )
+        model = (
+            Page("tool", "Tool", "Where the tool is, in every notation", ToolPanel(*arguments)),
+            Page("matrices", "Matrices", "Every A and the product up to it", MatricesPanel(*arguments)),
+            Page("points", "Points", "The characteristic points of the stick figure", PointsPanel(*arguments)),
+            Page("dh", "DH table", "The Denavit–Hartenberg table, to be changed live", DHTablePanel(*arguments)),
+        )
+        pages = self._inspect_pages()
+        inspect = [("inspect", "Inspect", PageStack("inspect_pages", pages))] if pages else []
+        return [
+            ("path", "Path", PathPanel(*arguments, self.tracker)),
+            ("inverse", "Inverse", PageStack("inverse_pages", inverse)),
+            *inspect,
+            ("model", "Model", PageStack("model_pages", model)),
+        ]
+
+    def _inspect_pages(self) -> list[Page]:
+        arguments = (self.session, self.preferences, self.stage)
+        return [Page(kind.name.removeprefix("inspect_"), kind.title, tip, kind(*arguments)) for kind, tip in INSPECT]
 
     def focusNextPrevChild(self, forward: bool) -> bool:
         """Tab passes over the panels that lie behind others: Qt calls them visible, but nobody sees them."""
@@ -148,33 +129,21 @@ class MainWindow(QMainWindow):
             if not super().focusNextPrevChild(forward):
                 return False
             focused = QApplication.focusWidget()
-            if focused is None or not _lies_behind(focused):
+            if focused is None or not lies_behind(focused):
                 return True
         return True
 
-    def _add_inverse(self, area: Qt.DockWidgetArea) -> QDockWidget:
-        """The panel that brings the gizmo along; behind another dock it is not seen, though Qt calls it visible."""
+    def _make_inverse(self) -> InversePanel:
+        """The panel that brings the gizmo along."""
         panel = InversePanel(self.target, self.preferences)
         panel.shown.connect(self.gizmo.switch)
-        dock = self._add_dock("inverse_dock", "Inverse", panel, area)
-        dock.visibilityChanged.connect(panel.set_seen)
-        return dock
+        return panel
 
-    def _add_laboratory(self, area: Qt.DockWidgetArea) -> QDockWidget:
+    def _make_laboratory(self) -> LaboratoryPanel:
         """The panel that shows its iterates in the scene, while it can be seen."""
         self.laboratory = LaboratoryPanel(self.session, self.preferences)
         self.laboratory_scene = LaboratoryScene(self.laboratory, self.session, self.stage, self.preferences)
-        self.laboratory.set_seen(False)
-        dock = self._add_dock("lab_dock", "Lab", self.laboratory, area)
-        dock.visibilityChanged.connect(self.laboratory.set_seen)
-        return dock
-
-    def _add_dock(self, object_name: str, title: str, panel: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
-        dock = QDockWidget(title, self)
-        dock.setObjectName(object_name)
-        dock.setWidget(panel)
-        self.addDockWidget(area, dock)
-        return dock
+        return self.laboratory
 
     def _make_toolbar(self) -> None:
         bar = QToolBar("Toolbar", self)
@@ -277,7 +246,7 @@ class MainWindow(QMainWindow):
         room = round((1.0 - _SCENE_SHARE) * self.width()) - 2 * _SEPARATOR
         left = min(left, max(room - right, self.joints.minimumSizeHint().width()))  # the joints need the least
         right = min(right, max(room - left, _NARROWEST_RIGHT))
-        self.resizeDocks(self._sized_docks, [left, right], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.docks.left, self.docks.right[0]], [left, right], Qt.Orientation.Horizontal)
 
     def say_welcome(self) -> None:
         """The first minute: what to do now."""
@@ -320,15 +289,3 @@ class MainWindow(QMainWindow):
         self.preferences.keep_window_state("geometry", geometry)
         self.preferences.keep_window_state("layout", layout)
         super().closeEvent(event)
-
-
-def _takes_tab(widget: QWidget) -> bool:
-    return bool(widget.focusPolicy().value & Qt.FocusPolicy.TabFocus.value) and widget.isVisible()
-
-
-def _lies_behind(widget: QWidget) -> bool:
-    """Whether a widget is in a dock of which nothing can be seen."""
-    parent: QWidget | None = widget
-    while parent is not None and not isinstance(parent, QDockWidget):
-        parent = parent.parentWidget()
-    return parent is not None and parent.visibleRegion().isEmpty()

@@ -8,7 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QTimer
-from PySide6.QtWidgets import QDockWidget
 
 from rvsim.errors import RvsimError, UnknownNameError
 from rvsim.experiment import TrajectoryTask
@@ -29,7 +28,7 @@ def save_screenshot(window: MainWindow, options: argparse.Namespace) -> int:
     _settle(200)
     try:
         _set_up(window, options.state)
-        _raise_panel(window, options.panel)
+        window.docks.show_panel(options.panel)
         _settle(300)
         save_image(window.picture(), Path(options.screenshot))
     except (RvsimError, OSError) as problem:
@@ -58,12 +57,6 @@ def _set_up(window: MainWindow, state: str) -> None:
         _settle(20)
     window.motion.seek(0.8 * window.motion.player.duration)
     window.motion.pause()
-
-
-def _raise_panel(window: MainWindow, panel: str) -> None:
-    dock = window.findChild(QDockWidget, f"{panel}_dock")
-    if dock is not None:
-        dock.raise_()
 
 
 def _settle(milliseconds: int) -> None:

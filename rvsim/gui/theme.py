@@ -74,6 +74,11 @@ QToolButton#qt_toolbar_ext_button {{ padding: 0; background: {raised}; border-co
 QToolButton:hover {{ background: {raised}; border-color: {border}; }}
 QToolButton:checked, QToolButton:pressed {{ background: {raised}; border-color: {accent}; }}
 QToolButton:focus {{ border-color: {accent}; }}
+QToolButton[role="page"] {{ border: none; border-radius: 5px; padding: 4px 4px; color: {muted}; }}
+QToolButton[role="page"]:hover {{ color: {text}; background: {raised}; }}
+QToolButton[role="page"]:checked {{ color: {text}; background: {raised}; border: 1px solid {border};
+    font-weight: 600; }}
+QToolButton[role="page"]:focus {{ border: 1px solid {accent}; }}
 QPushButton {{ background: {raised}; border: 1px solid {border}; border-radius: 5px; padding: 5px 8px; }}
 QPushButton:hover {{ border-color: {accent}; }}
 QPushButton:pressed, QPushButton:checked {{ background: {window}; border-color: {accent}; }}

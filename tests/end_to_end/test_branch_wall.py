@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QAbstractButton, QApplication, QDockWidget, QLabel, QTableView, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QTableView, QWidget
 from pytestqt.qtbot import QtBot
 
 from rvsim.gui.app import build_window
@@ -45,7 +45,7 @@ def window_of(qtbot: QtBot) -> Callable[[str], MainWindow]:
         with qtbot.waitExposed(window):
             window.show()
         window.session.move_to(np.array(POSES[name]), "Go")
-        window.findChild(QDockWidget, "inverse_dock").raise_()
+        window.docks.show_panel("inverse")
         qtbot.waitUntil(lambda: any(item.key.startswith("gizmo") for item in window.scene_view.scene.items))
         return window
 
@@ -224,7 +224,7 @@ def test_the_wall_shows_every_branch_and_the_table_lights_one(qtbot, window_of) 
     qtbot.waitUntil(lambda: any(key.startswith(f"ghost{name}.") for key in ghosts(window)))
     window.findChild(QWidget, "all_ghosts_switch").click()
     qtbot.waitUntil(lambda: all(key.startswith(f"ghost{name}.") for key in ghosts(window) if key != "ghosts.names"))
-    window.findChild(QDockWidget, "path_dock").raise_()
+    window.docks.show_panel("path")
     qtbot.waitUntil(lambda: not ghosts(window))
     assert not window.actions_by_name["drag_tool"].isChecked()
 

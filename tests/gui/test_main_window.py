@@ -101,12 +101,12 @@ def test_the_layout_is_remembered(qtbot: QtBot, tmp_path: Path) -> None:
     first = build_window(Preferences(file))
     qtbot.addWidget(first)
     first.show()
-    first.findChild(QDockWidget, "points_dock").hide()
+    first.findChild(QDockWidget, "model_dock").hide()
     first.close()
     second = build_window(Preferences(file))
     qtbot.addWidget(second)
     second.show()
-    assert second.findChild(QDockWidget, "points_dock").isHidden()
+    assert second.findChild(QDockWidget, "model_dock").isHidden()
     assert not second.findChild(QDockWidget, "path_dock").isHidden()
 
 

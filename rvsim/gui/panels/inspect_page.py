@@ -47,12 +47,13 @@ class InspectPage(ReadOutPanel):
             self.draw(())
 
     def draw(self, items: tuple[Item, ...]) -> None:
-        """Show these items in the scene, instead of those before."""
-        self._stage.set_layer(self.name, items)
+        """Show these items in the scene, instead of those before; nothing of a page that is not seen."""
+        if self._seen or not items:
+            self._stage.set_layer(self.name, items)
 
     def _refresh_if_seen(self) -> None:
-        self._stale = not self._seen
-        if self._seen:
+        self._stale = not (self._seen or self.always)
+        if not self._stale:
             self.refresh()
 
     def event(self, event: QEvent) -> bool:

@@ -17,6 +17,7 @@ class ReadOutPanel(QWidget):
     """Calls `refresh()` when pose, arm or number format is another one; a hidden panel waits until it is shown."""
 
     settings: frozenset[str] = NUMBER_SETTINGS
+    always = False  # whether its numbers are kept true while nobody sees them, for those who read them by name
     costly = False  # then it waits behind another dock too, which Qt calls visible, though it lies outside the window
 
     def __init__(self, session: Session, preferences: Preferences, parent: QWidget | None = None) -> None:
@@ -42,7 +43,8 @@ class ReadOutPanel(QWidget):
             self._refresh_if_seen()
 
     def _refresh_if_seen(self) -> None:
-        self._stale = not self.isVisible() or (self.costly and self.visibleRegion().isEmpty())
+        hidden = not (self.isVisible() or self.always)
+        self._stale = hidden or (self.costly and self.visibleRegion().isEmpty())
         if not self._stale:
             self.refresh()
 

@@ -193,23 +193,23 @@ def test_behind_another_panel_nothing_is_run_or_drawn(window: MainWindow) -> Non
 
 
 def test_in_front_the_iterates_fade_in_the_scene_and_go_with_the_panel(qtbot: QtBot, window: MainWindow) -> None:
-    window.findChild(QObject, "lab_dock").raise_()
+    window.docks.show_panel("lab")
     qtbot.waitUntil(lambda: bool(keys(window, ITERATES_KEY)))
     assert {f"{ITERATES_KEY}.way", f"{ITERATES_KEY}.target", f"{ITERATES_KEY}.0.link0"} <= keys(window, ITERATES_KEY)
-    window.findChild(QObject, "path_dock").raise_()
+    window.docks.show_panel("path")
     qtbot.waitUntil(lambda: not keys(window, ITERATES_KEY))
 
 
 def test_the_ellipse_is_drawn_beside_the_ur5e_alone(qtbot: QtBot, window: MainWindow) -> None:
     window.laboratory.pages.setCurrentIndex(1)
-    window.findChild(QObject, "lab_dock").raise_()
+    window.docks.show_panel("lab")
     qtbot.waitUntil(lambda: bool(keys(window, SOURCE_002_KEY)))
     window.session.use_robot(window.library["rv-m1"])
     qtbot.waitUntil(lambda: not keys(window, SOURCE_002_KEY))
 
 
 def test_it_fits_a_small_screen(qtbot: QtBot, window: MainWindow) -> None:
-    window.findChild(QObject, "lab_dock").raise_()
+    window.docks.show_panel("lab")
     page = window.laboratory.contest
     finished(qtbot, window.laboratory)
     for part in (page.target, page.start, page.rules):

@@ -1,0 +1,113 @@
+"""Several pages in one panel, one seen at a time, with a button for each above them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QButtonGroup, QGridLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
+
+_MOST_IN_ROW = 4
+
+
+class Page(NamedTuple):
+    """One page: its name for tests and commands, the text on its button, what that shows, and the widget."""
+
+    name: str
+    title: str
+    tip: str
+    widget: QWidget
+
+
+class PageStack(QWidget):
+    """A page that has a method `set_seen(bool)` is told when it comes to the front and when it goes."""
+
+    def __init__(self, object_name: str, pages: Sequence[Page]) -> None:
+        super().__init__()
+        self.setObjectName(object_name)
+        self._pages = tuple(pages)
+        self._seen = False
+        self.stack = QStackedWidget()
+        self._buttons = QButtonGroup(self)
+        self._buttons.setExclusive(True)
+        row = QGridLayout()
+        row.setContentsMargins(8, 6, 8, 2)
+        row.setSpacing(2)
+        for number, page in enumerate(self._pages):
+            row.addWidget(self._button(number, page), number // _MOST_IN_ROW, number % _MOST_IN_ROW)
+            self.stack.addWidget(page.widget)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(row)
+        column.addWidget(self.stack, 1)
+        self._buttons.idClicked.connect(self._go)
+        self._buttons.button(0).setChecked(True)
+        self._tell()
+
+    def _button(self, number: int, page: Page) -> QToolButton:
+        made = _PageButton(self)
+        made.setObjectName(f"{page.name}_page_button")
+        made.setText(page.title)
+        made.setToolTip(page.tip)
+        made.setCheckable(True)
+        made.setProperty("role", "page")
+        made.setSizePolicy(made.sizePolicy().horizontalPolicy().Expanding, made.sizePolicy().verticalPolicy())
+        self._buttons.addButton(made, number)
+        return made
+
+    @property
+    def pages(self) -> tuple[Page, ...]:
+        """All pages, in the order of their buttons."""
+        return self._pages
+
+    @property
+    def current(self) -> Page:
+        """The page in front."""
+        return self._pages[self.stack.currentIndex()]
+
+    def show_page(self, name: str) -> None:
+        """Bring a page to the front of this panel."""
+        self._go([page.name for page in self._pages].index(name))
+
+    def step(self, by: int, *, focus: bool = False) -> None:
+        """To the next page or the one before, round and round."""
+        number = (self.stack.currentIndex() + by) % len(self._pages)
+        self._go(number)
+        if focus:
+            self._buttons.button(number).setFocus(Qt.FocusReason.TabFocusReason)
+
+    def set_seen(self, seen: bool) -> None:
+        """Whether the panel can be seen: a dock behind another one counts as shown for Qt, but not for the eye."""
+        self._seen = seen
+        self._tell()
+
+    def _go(self, number: int) -> None:
+        self._buttons.button(number).setChecked(True)
+        self.stack.setCurrentIndex(number)
+        self._tell()
+
+    def _tell(self) -> None:
+        """Those that go before the one that comes: they may draw in the same place."""
+        for page in sorted(self._pages, key=lambda page: page is self.current):
+            if hasattr(page.widget, "set_seen"):
+                page.widget.set_seen(self._seen and page is self.current)
+
+
+class _PageButton(QToolButton):
+    """Left and right arrows go to the neighbours, as in a row of tabs."""
+
+    def __init__(self, stack: PageStack) -> None:
+        super().__init__()
+        self._stack = stack
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Step with the arrows; anything else is the button's own."""
+        steps = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
+        key = Qt.Key(event.key())
+        if key in steps:
+            self._stack.step(steps[key], focus=True)
+        else:
+            super().keyPressEvent(event)

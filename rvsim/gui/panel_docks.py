@@ -1,0 +1,115 @@
+"""The panels of the window: which there are, in which dock each lies, and the keys that bring it to the front."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QWidget
+
+from rvsim.gui.page_stack import Page, PageStack
+
+
+class PanelDocks:
+    """Docks at the left and at the right, those at the right behind each other.
+
+    Args:
+        window: where they are put.
+        left: (object name without "_dock", title, widget) of the one dock at the left.
+        right: the same for those at the right; a `PageStack` holds several pages.
+    """
+
+    def __init__(
+        self, window: QMainWindow, left: tuple[str, str, QWidget], right: Sequence[tuple[str, str, QWidget]]
+    ) -> None:
+        self._window = window
+        options = QMainWindow.DockOption
+        window.setDockOptions(options.AnimatedDocks | options.AllowTabbedDocks | options.AllowNestedDocks)
+        window.setTabPosition(Qt.DockWidgetArea.RightDockWidgetArea, QTabWidget.TabPosition.North)
+        self.left = self._add(*left, Qt.DockWidgetArea.LeftDockWidgetArea)
+        self.right = [self._add(*entry, Qt.DockWidgetArea.RightDockWidgetArea) for entry in right]
+        for dock in self.right[1:]:
+            window.tabifyDockWidget(self.right[0], dock)
+        for dock in self.right:
+            dock.setTitleBarWidget(QWidget())  # the tab says it already; a low screen needs the room
+        self.right[0].raise_()
+
+    def _add(self, name: str, title: str, panel: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        dock = QDockWidget(title, self._window)
+        dock.setObjectName(f"{name}_dock")
+        dock.setWidget(panel)
+        self._window.addDockWidget(area, dock)
+        if hasattr(panel, "set_seen"):
+            dock.visibilityChanged.connect(panel.set_seen)
+        return dock
+
+    @property
+    def all(self) -> list[QDockWidget]:
+        """Every dock, the left one first."""
+        return [self.left, *self.right]
+
+    def make_menu(self) -> QMenu:
+        """Keys that bring each panel to the front, its pages, and switches that hide it."""
+        panels, hidden = QMenu("Panels", self._window), QMenu("Hide or show", self._window)
+        for number, dock in enumerate(self.all, 1):
+            action = panels.addAction(dock.windowTitle())
+            action.setObjectName(f"action_go_to_{dock.objectName()}")
+            action.setShortcut(f"Alt+{number}")
+            action.triggered.connect(partial(self.go_to, dock))
+            hidden.addAction(dock.toggleViewAction())
+        for dock in self.right:
+            if isinstance(dock.widget(), PageStack):
+                panels.addSeparator()
+                self._add_pages(panels, dock)
+        panels.addSeparator()
+        panels.addMenu(hidden)
+        return panels
+
+    def _add_pages(self, menu: QMenu, dock: QDockWidget) -> None:
+        pages = dock.widget()
+        assert isinstance(pages, PageStack)
+        for page in pages.pages:
+            action = menu.addAction(f"{dock.windowTitle()} › {page.title}")
+            action.setObjectName(f"action_go_to_{page.name}_page")
+            action.setStatusTip(page.tip)
+            action.triggered.connect(partial(self._go_to_page, dock, page))
+
+    def go_to(self, dock: QDockWidget, _checked: bool = False) -> None:
+        """Bring a dock to the front, with the focus in it."""
+        dock.show()
+        dock.raise_()
+        QApplication.sendPostedEvents()  # the dock takes its place, so that what lies in it can be seen
+        inside = [child for child in dock.widget().findChildren(QWidget) if takes_tab(child)]
+        if inside:
+            inside[0].setFocus(Qt.FocusReason.ShortcutFocusReason)
+
+    def _go_to_page(self, dock: QDockWidget, page: Page, _checked: bool = False) -> None:
+        self.show_panel(page.name)
+        self.go_to(dock)
+
+    def show_panel(self, name: str) -> bool:
+        """Bring the panel or page of that name to the front; whether there is one."""
+        for dock in self.right:
+            pages = dock.widget()
+            if isinstance(pages, PageStack) and name in [page.name for page in pages.pages]:
+                pages.show_page(name)
+            elif dock.objectName() != f"{name}_dock":
+                continue
+            dock.show()
+            dock.raise_()
+            return True
+        return False
+
+
+def takes_tab(widget: QWidget) -> bool:
+    """Whether the Tab key stops there."""
+    return bool(widget.focusPolicy().value & Qt.FocusPolicy.TabFocus.value) and widget.isVisible()
+
+
+def lies_behind(widget: QWidget) -> bool:
+    """Whether a widget is in a dock of which nothing can be seen."""
+    parent: QWidget | None = widget
+    while parent is not None and not isinstance(parent, QDockWidget):
+        parent = parent.parentWidget()
+    return parent is not None and parent.visibleRegion().isEmpty()
