@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-import numpy as np
+import re
+from collections.abc import Iterator
 
-from rvsim import load_robot
+import numpy as np
+import pytest
+
+from rvsim import forward_kinematics, inverse_kinematics, load_robot, robot_names
+from rvsim.experiment import random_pose
+from rvsim.kinematics import Failure
 from rvsim.lab import named_path
 from rvsim.lab.sentences import (
     Units,
     advice_sentence,
     deviation_sentence,
+    failure_sentence,
     joint_amount,
     length_error,
     short_sentence,
     tracking_sentence,
 )
 from rvsim.motion import Tracking, track
+from rvsim.robot import Robot
+from rvsim.spatial import rotation_from_rpy
 
 
 def line_of_source_000(ignore_limits: bool = False) -> Tracking:
@@ -79,3 +88,49 @@ def test_a_joint_with_a_symbol_for_a_name_gets_no_article() -> None:
     cartesian = load_robot("cartesian")
     path = named_path("line", cartesian, start=(0.3, 0.2, 0.15), end=(0.3, 0.5, 0.15), samples=4)
     assert "d2 needs 500 mm, stops at 400 mm" in tracking_sentence(track(cartesian, path))
+
+
+def failures_of(robot: Robot) -> Iterator[Failure]:
+    """Of places stretched away, of orientations at will, and of joints beyond their stops."""
+    rng = np.random.default_rng(3)
+    for seed in range(15):
+        stretched, turned = (forward_kinematics(robot, random_pose(robot, seed)) for _ in range(2))
+        stretched[:3, 3] *= rng.uniform(0.2, 4.0)
+        turned[:3, :3] = rotation_from_rpy(rng.uniform(-3.0, 3.0, 3))
+        beyond = robot.home + rng.uniform(-3.0, 3.0, robot.dof) * np.where(robot.is_revolute, 1.0, robot.size)
+        for T in (stretched, turned, forward_kinematics(robot, beyond)):
+            failure = inverse_kinematics(robot, T).failure
+            if failure is not None:
+                yield failure
+
+
+_SI = {"°": np.pi / 180.0, " rad": 1.0, " mm": 1e-3, " m": 1.0, " units": 1.0}
+_NUMBER = re.compile(r"(−?\d+\.\d+)(°| rad| mm| m| units)")
+
+
+def amounts(sentence: str) -> list[float]:
+    """Its numbers in radians and metres."""
+    return [float(number.replace("−", "-")) * _SI[unit] for number, unit in _NUMBER.findall(sentence)]
+
+
+@pytest.mark.parametrize("name", robot_names())
+def test_a_failure_says_the_same_in_all_units_and_only_in_those(name: str) -> None:
+    kinds = set()
+    for failure in failures_of(load_robot(name)):
+        kinds.add(failure.kind)
+        usual, other = failure_sentence(failure), failure_sentence(failure, Units("rad", "m"))
+        assert usual == failure.reason
+        assert not re.search("°| mm", other)
+        assert amounts(usual)
+        np.testing.assert_allclose(amounts(other), amounts(usual), atol=1.5e-3)
+        assert _NUMBER.sub("", usual) == _NUMBER.sub("", other)
+    assert kinds
+
+
+def test_a_stop_that_is_hardly_passed_is_told_from_what_is_needed() -> None:
+    robot = load_robot("cartesian")
+    T = forward_kinematics(robot, robot.limits[:, 1])
+    T[:3, 3] *= 1.00001
+    failure = inverse_kinematics(robot, T).failure
+    assert failure is not None
+    assert re.search(r"needs (\S+) mm, stops at (?!\1)\S+ mm", failure.reason)
