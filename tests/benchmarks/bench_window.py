@@ -14,7 +14,12 @@ import time
 
 FRAMES, MEMORY_FRAMES = 400, 10_000
 # Where a drag begins: all that it asks for can be reached. [degrees]
-_READY = {"rv-m1": (30.0, 40.0, -50.0, 20.0, 60.0), "ur5e": (20.0, -70.0, 100.0, -50.0, 60.0, 35.0)}
+_READY = {
+    "rv-m1": (30.0, 40.0, -50.0, 20.0, 60.0),
+    "rv-1a": (20.0, 80.0, 30.0, 40.0, 50.0, 30.0),
+    "ur5e": (20.0, -70.0, 100.0, -50.0, 60.0, 35.0),
+    "al5b": (20.0, 100.0, -80.0, -20.0, 15.0),
+}
 
 
 def main() -> int:
