@@ -1,6 +1,7 @@
-"""Where the arm is: forward kinematics, Jacobian, inverse kinematics."""
+"""Where the arm is and how it moves: forward kinematics, Jacobian, rates, singularities, inverse kinematics."""
 
 from rvsim.kinematics.dh import dh_transform, joint_transforms
+from rvsim.kinematics.ellipsoids import Ellipsoid, ellipsoid
 from rvsim.kinematics.exponentials import (
     ForwardDifference,
     ProductOfExponentials,
@@ -40,6 +41,18 @@ from rvsim.kinematics.numeric import (
     solve_numeric,
     solve_numeric_batch,
 )
+from rvsim.kinematics.rates import (
+    JointAccelerations,
+    JointRates,
+    analytic_jacobian,
+    angle_measure,
+    jacobian_dot,
+    joint_accelerations,
+    joint_rates,
+    tool_acceleration,
+    tool_jacobian,
+    tool_twist,
+)
 
 __all__ = [
     "AS_IN_SOURCE_000",
@@ -49,10 +62,13 @@ __all__ = [
     "SOLVERS",
     "BatchResult",
     "Branch",
+    "Ellipsoid",
     "Failure",
     "ForwardDifference",
     "History",
     "InverseResult",
+    "JointAccelerations",
+    "JointRates",
     "LimitCopies",
     "Nearest",
     "NumericResult",
@@ -60,8 +76,11 @@ __all__ = [
     "Preset",
     "ProductOfExponentials",
     "SolverOptions",
+    "analytic_jacobian",
+    "angle_measure",
     "branch_labels",
     "dh_transform",
+    "ellipsoid",
     "forward_by_exponentials",
     "forward_difference",
     "forward_kinematics",
@@ -71,6 +90,9 @@ __all__ = [
     "inverse_kinematics_batch",
     "inverse_tasks",
     "jacobian",
+    "jacobian_dot",
+    "joint_accelerations",
+    "joint_rates",
     "joint_transforms",
     "limit_copies",
     "limit_margins",
@@ -80,4 +102,7 @@ __all__ = [
     "screw_axes",
     "solve_numeric",
     "solve_numeric_batch",
+    "tool_acceleration",
+    "tool_jacobian",
+    "tool_twist",
 ]
