@@ -22,11 +22,11 @@ from rvsim.kinematics.numeric import (
     Task,
     solve_numeric,
 )
-from rvsim.lab.sentences import MINUS, joint_amount
+from rvsim.lab.sentences import MINUS, Units, joint_amount, length_number
 from rvsim.lab.source_002 import Comparison
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
-from rvsim.units import degrees_from_radians, millimetres_from_metres
+from rvsim.units import degrees_from_radians
 
 TITLES: dict[Solver, str] = {
     "newton": "Newton–Raphson",
@@ -47,6 +47,7 @@ EXACT = Preset(
 )
 PRESETS = (EXACT, AS_IN_SOURCE_000, AS_IN_SOURCE_002)
 
+_UNITS = Units()
 _SAME = 1e-2  # [rad, m] configurations nearer than this are the same solution
 # [s] by which the clock leaps when a contest is cancelled: the solver at work finds its time used up.
 _LEAP = 1e9
@@ -137,20 +138,20 @@ def target_of(robot: Robot, q: FloatArray) -> FloatArray:
 # --- in words ----------------------------------------------------------------------------------------------------
 
 
-def verdict(trial: Trial, outcome: Outcome) -> str:
+def verdict(trial: Trial, outcome: Outcome, units: Units = _UNITS) -> str:
     """What one solver did, and why it ended."""
     result = outcome.result
     end = f"ends after {_count(result.iterations, 'iteration')}"
-    left = "" if result.converged else f" {_missing(trial, result)} left."
-    return f"{outcome.title} {end}. {result.reason}{left}{_curve_note(result)}{_limit_note(trial, result)}"
+    left = "" if result.converged else f" {_missing(trial, result, units)} left."
+    return f"{outcome.title} {end}. {result.reason}{left}{_curve_note(result)}{_limit_note(trial, result, units)}"
 
 
-def contest_sentence(contest: Contest) -> str:
+def contest_sentence(contest: Contest, units: Units = _UNITS) -> str:
     """Who reached the target, who needed least, and whether they came to the same joints."""
     done, count = contest.converged, len(contest.outcomes)
     if not done:
         nearest = contest.best
-        missing = _missing(contest.trial, nearest.result)
+        missing = _missing(contest.trial, nearest.result, units)
         return f"None of the {count} reaches the target. Nearest: {nearest.title}, {missing} left."
     if len(done) == 1:
         return f"Only {done[0].title} reaches the target, in {_count(done[0].result.iterations, 'iteration')}."
@@ -193,13 +194,17 @@ def same_solutions(contest: Contest) -> tuple[tuple[Outcome, ...], ...]:
     return tuple(map(tuple, groups))
 
 
-def _missing(trial: Trial, result: NumericResult) -> str:
-    in_units = trial.robot.length_unit == "unit"
-    place = result.position_error if in_units else millimetres_from_metres(result.position_error)
-    text = f"{_short(place)} {'units' if in_units else 'mm'}"
-    if trial.task == "pose":
-        text += f" and {_short(degrees_from_radians(result.rotation_error))}°"
-    return text
+def _missing(trial: Trial, result: NumericResult, units: Units) -> str:
+    number, unit = length_number(trial.robot, result.position_error, units)
+    text = f"{_short(number)} {unit}"
+    if trial.task != "pose":
+        return text
+    turn = result.rotation_error
+    return (
+        f"{text} and {_short(degrees_from_radians(turn))}°"
+        if units.angle == "deg"
+        else f"{text} and {_short(turn)} rad"
+    )
 
 
 def _short(number: float) -> str:
@@ -216,24 +221,29 @@ def _curve_note(result: NumericResult) -> str:
     return f"{needed} The curve shows the {which} try alone."
 
 
-def _limit_note(trial: Trial, result: NumericResult) -> str:
+def _limit_note(trial: Trial, result: NumericResult, units: Units) -> str:
     violations = limit_violations(trial.robot, result.q)
     if trial.options.enforce_joint_limits or not violations:
         return ""
     first = violations[0]
     name = trial.robot.joint_names[first.joint]
-    return f" Outside the limits: {name} at {joint_amount(trial.robot, name, float(result.q[first.joint]))}."
+    return f" Outside the limits: {name} at {joint_amount(trial.robot, name, float(result.q[first.joint]), units)}."
 
 
-def source_002_sentence(comparison: Comparison) -> str:
+def source_002_sentence(comparison: Comparison, units: Units = _UNITS) -> str:
     """What the misprints of source 002 cost, and what the program believes meanwhile."""
     printed, corrected = comparison
-    least, most = printed.deviations.min(), printed.deviations.max()
-    believed = printed.believed_deviations.max()
+    unit = units.length
+    factor, more = (1.0, 0) if unit == "mm" else (1e-3, 3)
+    off = [
+        f"{factor * distance:.{more}f}"
+        for distance in (printed.rms, printed.deviations.min(), printed.deviations.max())
+    ]
+    believed = f"{factor * printed.believed_deviations.max():.{more + 1}f}"
     return (
-        f"As printed, the real UR5e is {printed.rms:.0f} mm RMS away from the ellipse ({least:.0f} to {most:.0f} mm), "
-        f"while the program believes itself within {believed:.1f} mm. "
-        f"Corrected: {corrected.rms:.0e} mm RMS, which is rounding alone."
+        f"As printed, the real UR5e is {off[0]} {unit} RMS away from the ellipse ({off[1]} to {off[2]} {unit}), "
+        f"while the program believes itself within {believed} {unit}. "
+        f"Corrected: {factor * corrected.rms:.0e} {unit} RMS, which is rounding alone."
     ).replace("e-", f"e{MINUS}")
 
 

@@ -97,9 +97,14 @@ def joint_amount(robot: Robot, joint: str, value: float, units: Units = _DEFAULT
 
 def length_error(robot: Robot, error: float, units: Units = _DEFAULT) -> str:
     """A deviation [m] in scientific notation, never rounded to 0."""
-    unit = _length_unit(robot, units)
-    value = millimetres_from_metres(error) if unit == "mm" else error
+    value, unit = length_number(robot, error, units)
     return f"{value:.1e} {unit}".replace("-", MINUS)
+
+
+def length_number(robot: Robot, length: float, units: Units = _DEFAULT) -> tuple[float, str]:
+    """A length [m] as a number and its unit."""
+    unit = _length_unit(robot, units)
+    return millimetres_from_metres(length) if unit == "mm" else length, unit
 
 
 def _length_unit(robot: Robot, units: Units) -> str:

@@ -17,9 +17,12 @@ from rvsim.lab.laboratory import (
     contest_sentence,
     run_contest,
     same_solutions,
+    source_002_sentence,
     target_of,
     verdict,
 )
+from rvsim.lab.sentences import Units
+from rvsim.lab.source_002 import compare_source_002
 from rvsim.spatial import pose_difference
 
 
@@ -94,6 +97,20 @@ def test_a_solution_outside_the_limits_is_said_to_be_so() -> None:
     )
     contest = contest_of(unlimited)
     assert any("Outside the limits: " in verdict(unlimited, outcome) for outcome in contest.outcomes)
+
+
+def test_nothing_is_said_in_degrees_or_millimetres_where_radians_and_metres_are_preferred() -> None:
+    trial = trial_of("rv-m1")
+    away = trial.T.copy()
+    away[:3, 3] *= 3.0
+    free = replace(trial.options, enforce_joint_limits=False)
+    contest, units = contest_of(replace(trial, T=away, options=free)), Units("rad", "m")
+    said = [contest_sentence(contest, units), *(verdict(contest.trial, o, units) for o in contest.outcomes)]
+    said.append(source_002_sentence(compare_source_002(load_robot("ur5e")), units))
+    assert all(" m " in sentence for sentence in said)
+    assert any(" rad" in sentence for sentence in said)
+    assert not any("°" in sentence or " mm" in sentence for sentence in said)
+    assert "0.431 m RMS" in said[-1]
 
 
 def test_restarts_are_told_and_counted() -> None:

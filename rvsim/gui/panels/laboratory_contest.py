@@ -30,7 +30,7 @@ from rvsim.gui.panels.laboratory_rules import RulesChooser
 from rvsim.gui.panels.laboratory_setup import StartChooser, TargetChooser
 from rvsim.gui.panels.laboratory_table import ContestModel, ContestTable
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import display, length_kind
+from rvsim.gui.quantities import display, length_kind, shown_units
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, scrolled
@@ -306,10 +306,11 @@ class ContestPage(Page):
             self.iterates_changed.emit(None)
             return
         self.go_button.setToolTip(f"Let the arm go where {TITLES[outcome.solver]} ended")
+        units = shown_units(self._preferences)
         if chosen:
-            self._say(verdict(contest.trial, outcome), "good" if outcome.result.converged else "warning")
+            self._say(verdict(contest.trial, outcome, units), "good" if outcome.result.converged else "warning")
         else:
-            self._say(contest_sentence(contest), "" if contest.converged else "warning")
+            self._say(contest_sentence(contest, units), "" if contest.converged else "warning")
         self.iterates_changed.emit(self.iterates)
 
     def _say(self, text: str, level: str) -> None:

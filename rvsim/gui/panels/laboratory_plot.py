@@ -50,7 +50,7 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
         """Name the axes."""
         if (below, beside) != self._titles:
             self._titles = (below, beside)
-            self.setAccessibleName(f"{beside} over iterations")
+            self.setAccessibleName(f"{beside}, by {below or 'iteration'}, logarithmic")
             self.dress()
 
     def show_curves(self, values: Mapping[str, Sequence[float] | FloatArray], limit: float = 0.0) -> None:

@@ -11,6 +11,7 @@ from rvsim.files import load_robot
 from rvsim.gui.panels.laboratory_looks import SOURCE_002_LOOKS, Legend
 from rvsim.gui.panels.laboratory_page import Page
 from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import shown_units
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import column_of, scrolled
 from rvsim.gui.workers import LatestWorker
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from rvsim.gui.panels.laboratory_plot import LogPlot
 
 _ARM = "ur5e"
+_POINTS = "point of the ellipse"
 _INTRODUCTION = (
     "The source leads a UR5e along an ellipse of 184 points by Newton–Raphson, position only. Below, how far the real "
     "arm is from each point with the angles that the printed program finds, and with the same algorithm put right."
@@ -68,30 +70,38 @@ class Source002Page(Page):
     def _make_plot(self) -> None:
         from rvsim.gui.panels.laboratory_plot import LogPlot
 
-        titles = ("point of the ellipse", "off by, mm")
-        self.plot = LogPlot(SOURCE_002_LOOKS, titles, self._preferences)
+        self.plot = LogPlot(SOURCE_002_LOOKS, (_POINTS, ""), self._preferences)
         self.plot.setObjectName("lab_source_002_plot")
-        self.plot.setAccessibleName("How far off the arm is, over the points of the ellipse, logarithmic")
         self.plot.setMinimumHeight(180)
         self._column.insertWidget(3, self.plot, 1)
 
     def _on_done(self, comparison: Comparison) -> None:
         self.comparison = comparison
-        printed, corrected = comparison
-        self.sentence.setText(source_002_sentence(comparison))
-        if self.plot is not None:
-            curves = {
-                "printed": printed.deviations,
-                "believed": printed.believed_deviations,
-                "corrected": corrected.deviations,
-            }
-            self.plot.show_curves(curves)
+        self._show()
         self._tell()
+
+    def _show(self) -> None:
+        """The sentence and the curves, in the units of the screen."""
+        if self.comparison is None or self.plot is None:
+            return
+        printed, corrected = self.comparison
+        units = shown_units(self._preferences)
+        factor = 1.0 if units.length == "mm" else 1e-3
+        self.sentence.setText(source_002_sentence(self.comparison, units))
+        self.plot.set_titles(_POINTS, f"off by, {units.length}")
+        curves = {
+            "printed": printed.deviations,
+            "believed": printed.believed_deviations,
+            "corrected": corrected.deviations,
+        }
+        self.plot.show_curves({name: factor * curve for name, curve in curves.items()})
 
     def _tell(self) -> None:
         self.comparison_changed.emit(self.comparison if self.seen else None)
 
     def _on_preference(self, name: str) -> None:
+        if name == "length_unit":
+            self._show()
         if name in ("theme", "presentation") and self.plot is not None:
             self.plot.dress()
             self.legend.update()

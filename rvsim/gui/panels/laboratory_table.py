@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidge
 from rvsim.gui.panels.laboratory_looks import SOLVER_LOOKS, sample_icon
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, fit_height, text_metrics
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import display, format_scientific, length_kind
+from rvsim.gui.quantities import display, format_scientific, length_kind, shown_units
 from rvsim.lab.laboratory import Contest, Outcome, verdict
 
 _TOP = QModelIndex()
@@ -66,7 +66,7 @@ class ContestModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.DecorationRole and index.column() == 0:
             return sample_icon(SOLVER_LOOKS[outcome.solver], self._preferences["theme"])
         if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleTextRole) and self.contest:
-            return verdict(self.contest.trial, outcome)
+            return verdict(self.contest.trial, outcome, shown_units(self._preferences))
         return None
 
     def _texts(self, outcome: Outcome) -> tuple[str, ...]:
