@@ -7,6 +7,7 @@ The map of the house, from the ground up (each floor imports only floors below i
     spatial      rotations and transforms, no robots
     robot        what an arm is: DH rows, joints, limits, tools, shapes
     kinematics   where it is: forward, Jacobian, inverse
+    dynamics     what it takes: torques that hold and move it, energies
     motion       where it goes and when: path, time law, tracking
     playback     which moment is shown
     experiment   the state a session stores, and the edits between states
@@ -17,6 +18,7 @@ The map of the house, from the ground up (each floor imports only floors below i
     cli, __main__
 """
 
+from rvsim.dynamics import gravity_torques, inverse_dynamics, joint_torques
 from rvsim.files.robot_file import load_robot, robot_names
 from rvsim.kinematics import (
     forward_kinematics,
@@ -36,10 +38,13 @@ __all__ = [
     "Robot",
     "__version__",
     "forward_kinematics",
+    "gravity_torques",
     "inverse_branches",
+    "inverse_dynamics",
     "inverse_kinematics",
     "inverse_kinematics_batch",
     "jacobian",
+    "joint_torques",
     "link_transforms",
     "load_robot",
     "robot_names",
