@@ -15,6 +15,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 from rvsim.experiment import Experiment, limit_violations
 from rvsim.gui.branch_words import limit_words
 from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import shown_units
 from rvsim.gui.session import Session
 from rvsim.gui.target_solution import (
     Answer,
@@ -259,11 +260,12 @@ class TargetControl(QObject):
 
     def _show(self, answer: Answer, q: FloatArray) -> None:
         self.answer, self.nearest = answer, None
-        self.sentence = immediate_sentence(answer)
+        units = shown_units(self._preferences)
+        self.sentence = immediate_sentence(answer, units)
         here = branch_at(answer, q)
         self._label = here.label if here is not None else self._label
         if answer.missed:
-            self._worker.ask(partial(nearest_pose, answer))
+            self._worker.ask(partial(nearest_pose, answer, units))
         else:
             self._worker.cancel()
 
@@ -314,5 +316,5 @@ class TargetControl(QObject):
         self.offer_changed.emit()
 
     def _on_preference(self, name: str) -> None:
-        if name in ("branch_order", "arm_follows"):
+        if name in ("branch_order", "arm_follows", "angle_unit", "length_unit"):
             self._solve_again()

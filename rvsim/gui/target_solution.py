@@ -25,6 +25,7 @@ from rvsim.kinematics import (
 )
 from rvsim.kinematics.inverse.nearest import nearest_configuration
 from rvsim.kinematics.inverse.result import in_order
+from rvsim.lab.sentences import Units, failure_sentence
 from rvsim.motion.continuity import continuous
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -186,14 +187,14 @@ class NearestPose(NamedTuple):
     rotation_error: float
 
 
-def nearest_pose(answer: Answer) -> NearestPose:
+def nearest_pose(answer: Answer, units: Units) -> NearestPose:
     """The nearest pose for a target that cannot be had. It takes 20 to 100 ms: not for the window's own thread."""
     question, failure = answer.question, answer.failure
     robot = question.robot
     limits = np.tile([-np.inf, np.inf], (robot.dof, 1)) if question.ignore_limits else robot.limits.copy()
     kept = list(_KEPT.get(question.task, ()))
     limits[kept] = question.q[kept, None]
-    sentence = failure.reason if failure is not None else immediate_sentence(answer)
+    sentence = failure_sentence(failure, units) if failure is not None else immediate_sentence(answer, units)
     q = None if failure is None else failure.nearest.q
     if q is None or (not question.ignore_limits and limit_violations(robot, q)):
         starts = np.array([question.q, *(branch.q for branch in answer.branches)])
@@ -209,7 +210,7 @@ _AT_ONCE = {
 }
 
 
-def immediate_sentence(answer: Answer) -> str:
+def immediate_sentence(answer: Answer, units: Units) -> str:
     """Why not, as far as it is known without looking for the nearest pose; nothing where the arm can."""
     if not answer.missed:
         return ""
@@ -217,4 +218,4 @@ def immediate_sentence(answer: Answer) -> str:
         return answer.numeric.reason
     failure = answer.failure
     assert failure is not None, "no branch that can be used, and no reason"
-    return failure.reason if failure.kind == "limits" else _AT_ONCE[failure.kind]
+    return failure_sentence(failure, units) if failure.kind == "limits" else _AT_ONCE[failure.kind]

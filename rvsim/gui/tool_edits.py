@@ -8,9 +8,9 @@ import numpy as np
 
 from rvsim.errors import NoClosedFormError
 from rvsim.experiment import Experiment
-from rvsim.gui.quantities import format_number
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.inverse import Failure, inverse_kinematics, inverse_tasks
+from rvsim.lab.sentences import Units, angle_text, failure_sentence
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import pose_difference
@@ -31,8 +31,8 @@ class _Solution(NamedTuple):
     failure: Failure | None
 
 
-def moved_tool(experiment: Experiment, T: FloatArray, p: FloatArray) -> ToolEdit:
-    """The tool of pose T (4, 4) moved to p (3,) [m].
+def moved_tool(experiment: Experiment, T: FloatArray, p: FloatArray, units: Units) -> ToolEdit:
+    """The tool of pose T (4, 4) moved to p (3,) [m]; sentences are in `units`.
 
     Its orientation stays; a 5R arm keeps pitch and roll and turns with its waist. Where the arm cannot keep it there,
     an arm that has a way to reach the place alone does so and says it.
@@ -46,14 +46,14 @@ def moved_tool(experiment: Experiment, T: FloatArray, p: FloatArray) -> ToolEdit
         if first.q is not None:
             return _followed(robot, first.q, target, position_only=True)
         if first.failure is not None and first.failure.kind == "orientation" and "position" in known[1:]:
-            return _turned_along(experiment, target)
+            return _turned_along(experiment, target, units)
     except NoClosedFormError as problem:
         return ToolEdit(sentence=f"{problem} Set its joints instead.")
-    return ToolEdit(sentence=_reason(robot, first.failure))
+    return ToolEdit(sentence=_reason(robot, first.failure, units))
 
 
-def turned_tool(experiment: Experiment, T: FloatArray, R: FloatArray) -> ToolEdit:
-    """The tool of pose T (4, 4) turned to R (3, 3), its origin kept."""
+def turned_tool(experiment: Experiment, T: FloatArray, R: FloatArray, units: Units) -> ToolEdit:
+    """The tool of pose T (4, 4) turned to R (3, 3), its origin kept; sentences are in `units`."""
     target = np.array(T)
     target[:3, :3] = R
     try:
@@ -61,7 +61,7 @@ def turned_tool(experiment: Experiment, T: FloatArray, R: FloatArray) -> ToolEdi
     except NoClosedFormError as problem:
         return ToolEdit(sentence=f"{problem} Set its joints instead.")
     if solution.q is None:
-        return ToolEdit(sentence=_reason(experiment.robot, solution.failure))
+        return ToolEdit(sentence=_reason(experiment.robot, solution.failure, units))
     return _followed(experiment.robot, solution.q, target, position_only=False)
 
 
@@ -83,20 +83,20 @@ def _followed(robot: Robot, q: FloatArray, target: FloatArray, *, position_only:
     return ToolEdit(sentence=f"The tool cannot be {way} that way: the {robot.title} has {robot.dof} joints.")
 
 
-def _turned_along(experiment: Experiment, target: FloatArray) -> ToolEdit:
+def _turned_along(experiment: Experiment, target: FloatArray, units: Units) -> ToolEdit:
     """The place alone, the tool turned as far as it must."""
     solution = _solve(experiment, target, "position")
     if solution.q is None:
-        return ToolEdit(sentence=_reason(experiment.robot, solution.failure))
+        return ToolEdit(sentence=_reason(experiment.robot, solution.failure, units))
     angle = pose_difference(forward_kinematics(experiment.robot, solution.q), target).angle
-    turned = format_number(np.degrees(float(angle)), 1)
-    return ToolEdit(solution.q, f"The tool had to turn by {turned}° to get there.")
+    return ToolEdit(solution.q, f"The tool had to turn by {angle_text(float(angle), units)} to get there.")
 
 
-def _reason(robot: Robot, failure: Failure | None) -> str:
+def _reason(robot: Robot, failure: Failure | None, units: Units) -> str:
     assert failure is not None, "no solution without a reason"
+    sentence = failure_sentence(failure, units)
     if failure.kind == "orientation" and robot.dof < 6:
-        return f"{failure.reason} With {robot.dof} joints the tool's orientation is not free."
+        return f"{sentence} With {robot.dof} joints the tool's orientation is not free."
     if failure.kind == "limits":
-        return f"{failure.reason} Switch “Ignore limits” on to go there."
-    return failure.reason
+        return f"{sentence} Switch “Ignore limits” on to go there."
+    return sentence

@@ -34,6 +34,11 @@ def failure_sentence(failure: Failure, units: Units = _DEFAULT) -> str:
     return explain(failure, _SCALES[units.angle], _SCALES[units.length])
 
 
+def angle_text(angle: float, units: Units = _DEFAULT) -> str:
+    """An angle [rad] for a sentence."""
+    return _SCALES[units.angle].text(angle)
+
+
 def tracking_sentence(tracking: Tracking, units: Units = _DEFAULT) -> str:
     """All of it: "4 of 11 points reached within the limits; 7 not: points 1–6: the elbow needs −156.7° … −116.9° and
     stops at −110°; point 11: the wrist pitch needs −94.7°, stops at −90°."."""

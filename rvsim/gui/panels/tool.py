@@ -11,7 +11,7 @@ from rvsim.gui.orientations import MATRIX, MATRIX_CONVENTION, NOTATIONS, Notatio
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.shown import NUMBER_SETTINGS, ReadOutPanel
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import Kind, display, format_scientific, half_turn_up, length_kind
+from rvsim.gui.quantities import Kind, display, format_scientific, half_turn_up, length_kind, shown_units
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
@@ -202,14 +202,15 @@ class ToolPanel(ReadOutPanel):
     def _move(self, axis: int, value: float) -> None:
         p = np.array(self._T[:3, 3])
         p[axis] = value
-        edit = moved_tool(self._session.experiment, self._T, p)
+        edit = moved_tool(self._session.experiment, self._T, p, shown_units(self._preferences))
         self._take(edit, f"Move the tool along {_AXES[axis]}", f"tool {_AXES[axis]}")
 
     def _turn(self, notation: Notation, index: int, value: float) -> None:
         assert notation.write is not None, "read-only boxes are not edited"
         angles = np.array(notation.read(self._T[:3, :3]))
         angles[index] = value
-        edit = turned_tool(self._session.experiment, self._T, notation.write(angles))
+        R, units = notation.write(angles), shown_units(self._preferences)
+        edit = turned_tool(self._session.experiment, self._T, R, units)
         self._take(edit, f"Turn the tool's {notation.names[index]}", f"tool {notation.names[index]}")
 
     def _take(self, edit: ToolEdit, text: str, merge: str) -> None:

@@ -265,3 +265,17 @@ def test_a_hidden_panel_solves_nothing(panel_of) -> None:
     assert panel.control.answer is answer
     panel.show()
     np.testing.assert_allclose(panel.control.T, forward_kinematics(panel.session.robot, UR5E + 0.1), atol=1e-12)
+
+
+@pytest.mark.parametrize("place", [(0.11, 0.0, 0.13), (0.2, 0.28, 0.25), (0.9, 0.0, 0.2)])
+def test_why_not_is_said_in_the_units_of_the_screen_also_when_these_change(qtbot, preferences, panel_of, place) -> None:
+    panel = panel_of("rv-m1")
+    T = forward_kinematics(panel.session.robot, panel.session.q)
+    T[:3, 3] = place
+    panel.control.set_target(Wish(T, "Target", ""))
+    preferences.set("length_unit", "m")
+    preferences.set("angle_unit", "rad")
+    qtbot.waitUntil(lambda: panel.control.nearest is not None)
+    said = [panel.findChild(QLabel, "why_not_sentence").text(), panel.why_not.left.text()]
+    assert all(any(unit in text for unit in (" m", " rad")) for text in said)
+    assert not any("°" in text or "mm" in text for text in said)

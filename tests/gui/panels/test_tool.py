@@ -272,3 +272,12 @@ def test_the_copies_say_names_and_units_in_full_precision(panel, preferences):
     np.testing.assert_array_equal(eval(QGuiApplication.clipboard().text(), {"np": np})[:3, :3], tool(panel)[:3, :3])
     copy.copy_as("text")
     assert "\np = (363." in QGuiApplication.clipboard().text()
+
+
+def test_a_refusal_is_said_in_the_units_of_the_screen(panel, preferences, qtbot):
+    preferences.set("length_unit", "m")
+    preferences.set("angle_unit", "rad")
+    for name, number in (("tool_x", "0.9"), ("tool_yaw", "0.4")):
+        enter(panel, qtbot, name, number)
+        assert any(unit in message(panel) for unit in (" m ", " rad"))
+        assert not any(unit in message(panel) for unit in ("°", "mm"))
