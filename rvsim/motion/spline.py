@@ -25,14 +25,20 @@ def spline_points(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> FloatAr
     if len(x) < 4:
         raise ShapeError("spline knots", "(at least 4,)", x.shape)
     y = frozen_array("spline values", values, (len(x), -1))
-    slopes = _slopes(x, y)
+    slopes = knot_slopes(x, y, "not-a-knot")
     t = frozen_array("spline parameters", at, (-1,))
     piece = np.clip(np.searchsorted(x, t, side="right") - 1, 0, len(x) - 2)
     return _hermite(x, y, slopes, piece, t)
 
 
-def _slopes(x: FloatArray, y: FloatArray) -> FloatArray:
-    """(k, d) first derivatives at the knots that make the second derivative continuous."""
+def knot_slopes(
+    x: FloatArray, y: FloatArray, ends: str, first: FloatArray | None = None, last: FloatArray | None = None
+) -> FloatArray:
+    """(k, d) first derivatives at the knots x (k,) of values y (k, d) that make the second derivative continuous.
+
+    Args:
+        ends: "natural", "clamped" (with the slopes `first` and `last` (d,)) or "not-a-knot".
+    """
     h = np.diff(x)
     rise = np.diff(y, axis=0) / h[:, None]
     matrix, right = np.zeros((len(x), len(x))), np.zeros_like(y)
@@ -40,8 +46,15 @@ def _slopes(x: FloatArray, y: FloatArray) -> FloatArray:
     matrix[inner, inner - 1], matrix[inner, inner + 1] = h[1:], h[:-1]
     matrix[inner, inner] = 2.0 * (h[:-1] + h[1:])
     right[inner] = 3.0 * (h[1:, None] * rise[:-1] + h[:-1, None] * rise[1:])
-    matrix[0, :2], right[0] = _not_a_knot(h[0], h[1], rise[0], rise[1])
-    matrix[-1, :-3:-1], right[-1] = _not_a_knot(h[-1], h[-2], rise[-1], rise[-2])
+    if ends == "not-a-knot":
+        matrix[0, :2], right[0] = _not_a_knot(h[0], h[1], rise[0], rise[1])
+        matrix[-1, :-3:-1], right[-1] = _not_a_knot(h[-1], h[-2], rise[-1], rise[-2])
+    elif ends == "natural":
+        matrix[0, :2], right[0] = (2.0, 1.0), 3.0 * rise[0]
+        matrix[-1, -2:], right[-1] = (1.0, 2.0), 3.0 * rise[-1]
+    else:
+        matrix[0, 0] = matrix[-1, -1] = 1.0
+        right[0], right[-1] = first, last
     return np.asarray(np.linalg.solve(matrix, right))
 
 
