@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -13,8 +14,8 @@ from rvsim.kinematics.dh import joint_array
 from rvsim.kinematics.inverse.batch import solve_block
 from rvsim.kinematics.inverse.closed_form import ClosedForm
 from rvsim.kinematics.inverse.families import closed_form
-from rvsim.kinematics.inverse.result import DEFAULT_ORDER, InverseResult, in_order
-from rvsim.kinematics.inverse.task import candidates, tasks
+from rvsim.kinematics.inverse.result import DEFAULT_ORDER, Branch, Failure, InverseResult, in_order
+from rvsim.kinematics.inverse.task import Candidates, candidates, tasks
 from rvsim.kinematics.inverse.ur import ParallelAxes
 from rvsim.kinematics.inverse.ur_scalar import ScalarParallelAxes
 from rvsim.kinematics.inverse.verdict import branches_of
@@ -59,16 +60,54 @@ def inverse_kinematics(
         UnknownNameError: a task or a criterion that does not exist.
         PoseError: T is no pose. ShapeError: T is not (4, 4), near not (n,).
     """
+    tried = attempt(robot, T, task=task, near=near, order=order)
+    return InverseResult(tried.branches, None if tried.reached else tried.failure())
+
+
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """All branches for a target, best first, before anybody asks why there are none.
+
+    Args:
+        form: the family's closed form.
+        found: the candidates, and the target as the arm can understand it.
+        branches: those of them that are right, in order.
+        here: (n,) where the arm is.
+        order: the criteria of the order.
+    """
+
+    form: ClosedForm
+    found: Candidates
+    branches: tuple[Branch, ...]
+    here: FloatArray
+    order: Sequence[str]
+
+    @property
+    def reached(self) -> bool:
+        """Whether a branch is within the limits."""
+        return any(branch.within_limits for branch in self.branches)
+
+    def failure(self) -> Failure:
+        """Why no branch will do. To tell whether the place alone is in reach can take 10 ms."""
+        if self.branches:
+            return limits_failure(self.form, self.found, self.branches, self.here)
+        return reach_failure(self.form, self.found, self.here, self.order)
+
+
+def attempt(
+    robot: Robot,
+    T: ArrayLike,
+    *,
+    task: str | None = None,
+    near: ArrayLike | None = None,
+    order: Sequence[str] = DEFAULT_ORDER,
+) -> Attempt:
+    """The branches alone: `inverse_kinematics` for somebody in a hurry, with the same arguments and errors."""
     form = closed_form(robot)
     target = _pose(T)
     here = robot.home if near is None else joint_array(robot, near)
     found = candidates(form, task, target, here)
-    branches = in_order(branches_of(robot, found, here), order)
-    if any(branch.within_limits for branch in branches):
-        return InverseResult(branches, None)
-    if branches:
-        return InverseResult(branches, limits_failure(form, found, branches, here))
-    return InverseResult((), reach_failure(form, found, here, order))
+    return Attempt(form, found, in_order(branches_of(robot, found, here), order), here, order)
 
 
 def inverse_branches(robot: Robot, T: ArrayLike) -> FloatArray:
