@@ -14,6 +14,8 @@ from rvsim.robot.arrays import FloatArray, frozen_array
 # The tool's z axis points straight down, its x axis along the base's x axis (source 000 tracks with this rotation).
 TOOL_DOWN = frozen_array("tool down", np.diag([1.0, -1.0, -1.0]), (3, 3))
 
+_CORNER, _UNUSUAL = np.radians(25.0), 4.0  # how far a path must turn to have a corner, and how many times the usual
+
 
 @dataclass(frozen=True, eq=False)
 class Path:
@@ -53,6 +55,20 @@ class Path:
     def length(self) -> float:
         """The length of the polyline through the points [m]."""
         return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
+
+    @cached_property
+    def corners(self) -> NDArray[np.intp]:
+        """Indices of the points where the path turns sharply: by more than 25°, and much more than it usually does.
+
+        A tool that does not rest there would have to jump in speed, or leave the path.
+        """
+        steps = np.diff(self.points, axis=0)
+        lengths = np.linalg.norm(steps, axis=1)
+        known = np.flatnonzero(lengths > 1e-9 * max(self.length, 1e-9))
+        directions = steps[known] / lengths[known, None]
+        turns = np.arccos(np.clip(np.sum(directions[:-1] * directions[1:], axis=1), -1.0, 1.0))
+        usual = float(np.median(turns)) if len(turns) else 0.0
+        return np.asarray(known[1:][turns > max(_CORNER, _UNUSUAL * usual)])
 
     def poses(self) -> FloatArray:
         """(m, 4, 4) base → tool; the identity orientation where it is free."""

@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from rvsim.errors import ShapeError
 from rvsim.robot.arrays import FloatArray, frozen_array
 
+_DENSE = 200  # knots; more are solved as the banded system that they are
+
 
 def spline_points(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> FloatArray:
     """The not-a-knot cubic spline through values (k, d) at increasing knots (k,), evaluated at (m,): (m, d).
@@ -55,7 +57,19 @@ def knot_slopes(
     else:
         matrix[0, 0] = matrix[-1, -1] = 1.0
         right[0], right[-1] = first, last
-    return np.asarray(np.linalg.solve(matrix, right))
+    return np.asarray(np.linalg.solve(matrix, right) if len(x) <= _DENSE else _solve_banded(matrix, right))
+
+
+def _solve_banded(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    """The same for many knots: nothing is further than two places from the diagonal."""
+    from scipy.linalg import solve_banded  # half a second of imports that a short spline does without
+
+    n = len(matrix)
+    bands = np.zeros((5, n))
+    for offset in range(-2, 3):
+        diagonal = np.diagonal(matrix, offset)
+        bands[2 - offset, max(offset, 0) : max(offset, 0) + len(diagonal)] = diagonal
+    return np.asarray(solve_banded((2, 2), bands, right))
 
 
 def _not_a_knot(h0: float, h1: float, rise0: FloatArray, rise1: FloatArray) -> tuple[list[float], FloatArray]:

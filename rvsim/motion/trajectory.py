@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
@@ -10,25 +11,36 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import ShapeError
-from rvsim.motion.time_law import QUINTIC_PEAK_SPEED, quintic
+from rvsim.motion.laws import Moments, PiecewisePolynomial, cubic, quintic_between, spline_through, trapezoid
 from rvsim.motion.tracking_result import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 Phase = Literal["approach", "path"]
+Law = Literal["quintic", "cubic", "trapezoid"]
+
+# From 0 to 1 in a second, at rest at both ends; the trapezoid speeds up for a quarter of the time.
+LAWS: dict[Law, PiecewisePolynomial] = {
+    "quintic": quintic_between(0.0, 1.0, 0.0, 1.0),
+    "cubic": cubic(0.0, 1.0, 0.0, 1.0),
+    "trapezoid": trapezoid(0.0, 0.0, 1.0, 4.0 / 3.0, 16.0 / 3.0),
+}
 
 # Where a robot file gives no joint speed, an animation moves at a pace the eye can follow: a right angle, or half the
 # arm's size, in a second. No number for a real arm.
 _EASY_TURN = np.pi / 2
 _EASY_SIZES = 0.5
 _SHORTEST_MOVE = 0.4
+_SHORTEST_STRETCH = 1e-3
+_EVEN_SAMPLES = 401
+_BETWEEN_SAMPLES = 1.001  # peaks are looked for at samples; between them they are hardly higher
 # Where no time is asked for, a move uses this part of the joints' speeds.
 _CALM = 0.6
 
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """From rest to rest through knots: joint-linear between them, eased as a whole by the quintic.
+    """From rest to rest through knots: a cubic spline in joint space, travelled as its time law says.
 
     Args:
         duration: [s], not 0.
@@ -36,6 +48,7 @@ class Stretch:
         q: (k, n) the poses [rad, m].
         progress: (k,) the path index at each knot.
         phase: "approach" on the way to the path, "path" along it, or waiting on it.
+        law: how it speeds up and slows down, one of `LAWS`.
     """
 
     duration: float
@@ -43,11 +56,31 @@ class Stretch:
     q: FloatArray
     progress: FloatArray
     phase: Phase = "path"
+    law: Law = "quintic"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "knots", frozen_array("knots", self.knots, (-1,)))
         object.__setattr__(self, "q", frozen_array("q", self.q, (len(self.knots), -1)))
         object.__setattr__(self, "progress", frozen_array("progress", self.progress, (len(self.knots),)))
+
+    @cached_property
+    def way(self) -> PiecewisePolynomial:
+        """The joints over the fraction of the way."""
+        return spline_through(self.knots, self.q, "not-a-knot" if len(self.knots) > 3 else "natural")
+
+    def at(self, t: FloatArray) -> Moments:
+        """Joints (k, n) and their derivatives at times (k,) from its start [s]: the chain rule over way and law."""
+        T = self.duration
+        s, sd, sdd, sddd = (value[:, 0] / T**k for k, value in enumerate(LAWS[self.law].at(t / T)))
+        q, q1, q2, q3 = self.way.at(s)
+        sd, sdd, sddd = sd[:, None], sdd[:, None], sddd[:, None]
+        # The two ends are met exactly; a sum of products would miss them by a rounding.
+        q = np.where(s[:, None] >= 1.0, self.q[-1], np.where(s[:, None] <= 0.0, self.q[0], q))
+        return Moments(q, q1 * sd, q2 * sd**2 + q1 * sdd, q3 * sd**3 + 3.0 * q2 * sd * sdd + q1 * sddd)
+
+    def fraction(self, t: float) -> float:
+        """The fraction of the way that is done at a time from its start [s]."""
+        return 1.0 if t >= self.duration * (1.0 - 1e-12) else float(LAWS[self.law].q(t / self.duration)[0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,96 +117,117 @@ class Trajectory:
         approaches = [stretch.phase == "approach" for stretch in self.stretches]
         return float(self.starts[approaches.index(False)]) if False in approaches else self.duration
 
+    def at(self, t: ArrayLike) -> Moments:
+        """Joints, speeds, accelerations and jerks at t [s], clamped to 0…duration: (k,) -> (k, n) each, () -> (n,)."""
+        times = np.clip(np.asarray(t, dtype=np.float64), 0.0, self.duration)
+        flat = times.ravel()
+        which = np.clip(np.searchsorted(self.starts, flat, side="right") - 1, 0, len(self.stretches) - 1)
+        n = self.stretches[0].q.shape[1]
+        found = Moments(*(np.empty((len(flat), n)) for _ in range(4)))
+        for index in np.unique(which):
+            here = which == index
+            for values, part in zip(found, self.stretches[index].at(flat[here] - self.starts[index]), strict=True):
+                values[here] = part
+        return Moments(*(values.reshape(*times.shape, n) for values in found))
+
     def q(self, t: ArrayLike) -> FloatArray:
         """The pose at t [s], clamped to 0…duration: () -> (n,), (k,) -> (k, n)."""
-        times = np.asarray(t, dtype=np.float64)
-        poses = np.array([self._pose(float(time)) for time in times.ravel()])
-        return poses.reshape(*times.shape, poses.shape[-1])
+        return self.at(t).q
 
     def path_index(self, t: float) -> float:
         """How far along the path, as a (fractional) index of its points."""
-        stretch, way = self._at(t)
-        return float(np.interp(way, stretch.knots, stretch.progress))
+        stretch, since = self._stretch_at(t)
+        return float(np.interp(stretch.fraction(since), stretch.knots, stretch.progress))
 
     def phase(self, t: float) -> Phase:
         """ "approach" on the way to the path, "path" on it."""
-        return self._at(t)[0].phase
+        return self._stretch_at(t)[0].phase
 
-    def _pose(self, t: float) -> FloatArray:
-        stretch, way = self._at(t)
-        last = len(stretch.knots) - 2
-        knot = min(max(int(np.searchsorted(stretch.knots, way, side="right")) - 1, 0), last)
-        before, after = stretch.knots[knot], stretch.knots[knot + 1]
-        part = (way - before) / (after - before)
-        # The two ends are met exactly; a sum of products would miss them by a rounding.
-        return np.asarray(stretch.q[knot + 1] if part >= 1.0 else stretch.q[knot] + part * _step(stretch, knot))
-
-    def _at(self, t: float) -> tuple[Stretch, float]:
-        """The stretch at time t and the fraction of its way that is done."""
+    def _stretch_at(self, t: float) -> tuple[Stretch, float]:
+        """The stretch at time t and the time since it began."""
         time = min(max(t, 0.0), self.duration)
         index = min(int(np.searchsorted(self.starts, time, side="right")) - 1, len(self.stretches) - 1)
-        stretch = self.stretches[index]
-        return stretch, float(quintic((time - self.starts[index]) / stretch.duration))
-
-
-def _step(stretch: Stretch, knot: int) -> FloatArray:
-    return np.asarray(stretch.q[knot + 1] - stretch.q[knot])
+        return self.stretches[index], time - float(self.starts[index])
 
 
 # --- ways to make one --------------------------------------------------------------------------------------------
 
 
-def joint_move(robot: Robot, q0: ArrayLike, q1: ArrayLike, *, seconds: float | None = None) -> Trajectory:
+def joint_move(
+    robot: Robot, q0: ArrayLike, q1: ArrayLike, *, seconds: float | None = None, law: Law = "quintic"
+) -> Trajectory:
     """The eased move (n,) to (n,), all joints together: for Home, a recalled pose, a branch.
 
     Args:
-        seconds: how long it should take; None for a pace the eye can follow. Never faster than the joints' max_speed.
+        seconds: how long it should take; None for a pace the eye can follow. Never faster than the joints may move.
     """
-    return Trajectory((_move(robot, q0, q1, seconds, 0.0, "path"),))
+    return Trajectory((_move(robot, q0, q1, seconds, 0.0, "path", law),))
 
 
 def trajectory_of(
-    tracking: Tracking, start_q: ArrayLike, *, path_seconds: float | None = None, approach_seconds: float | None = None
+    tracking: Tracking,
+    start_q: ArrayLike,
+    *,
+    path_seconds: float | None = None,
+    approach_seconds: float | None = None,
+    law: Law = "quintic",
 ) -> Trajectory | None:
     """From `start_q` (n,) to the first reached point and along the path; None when no point was reached.
 
-    Through each reached point exactly, joint-linear between them. Over an unreached stretch the arm waits at the last
-    reached point (at the first one, if the path begins so), then moves on to the next in joint space. After a jump it
-    moves in joint space too. No joint exceeds its max_speed where the robot file knows one.
+    Through each reached point exactly, on a spline in joint space between them, from rest to rest at corners. Over an
+    unreached stretch the arm waits at the last reached point (at the first one, if the path begins so), then moves on
+    to the next in joint space. After a jump it moves in joint space too. No joint exceeds its max_speed and
+    max_acceleration where the robot file knows them.
 
     Args:
-        path_seconds: how long the whole path should take, its unreached points included; None for a calm pace.
+        path_seconds: how long the whole path should take, its unreached points included; None for a calm pace, and
+            0 for as quick as the joints may with this law.
         approach_seconds: the same for the way to the first reached point.
+        law: how each stretch speeds up and slows down.
     """
     if not tracking.reached_count:
         return None
-    pace = (path_seconds or _calm_seconds(tracking)) / max(tracking.samples - 1, 1)
+    wanted = _calm_seconds(tracking) if path_seconds is None else path_seconds
+    pace = max(wanted / max(tracking.samples - 1, 1), 1e-6)
     runs = _runs(tracking)
     here = tracking.q[runs[0][0]]
-    stretches = [_move(tracking.robot, start_q, here, approach_seconds, 0.0, "approach")]
+    stretches = [_move(tracking.robot, start_q, here, approach_seconds, 0.0, "approach", law)]
     done = 0
     for first, last in runs:
         stretches += _wait(stretches[-1].q[-1], done, first, pace)
         if not np.array_equal(stretches[-1].q[-1], tracking.q[first]):
-            stretches.append(_move(tracking.robot, stretches[-1].q[-1], tracking.q[first], None, float(first), "path"))
-        stretches += _along(tracking, first, last, pace)
+            gap = _move(tracking.robot, stretches[-1].q[-1], tracking.q[first], None, float(first), "path", law)
+            stretches.append(gap)
+        stretches += _along(tracking, first, last, pace, law)
         done = last
     stretches += _wait(stretches[-1].q[-1], done, tracking.samples - 1, pace)
     return Trajectory(tuple(stretches))
 
 
 def _runs(tracking: Tracking) -> list[tuple[int, int]]:
-    """First and last index of each unbroken run of reached points, broken at the jumps as well."""
+    """First and last index of each stretch of reached points that is travelled in one go.
+
+    Jumps break them, and corners, where one run ends in the point in which the next one begins.
+    """
     indices = np.flatnonzero(tracking.reached)
     breaks = (np.diff(indices) > 1) | np.isin(indices[1:], tracking.jumps)
-    return [(int(run[0]), int(run[-1])) for run in np.split(indices, np.flatnonzero(breaks) + 1)]
+    unbroken = [(int(run[0]), int(run[-1])) for run in np.split(indices, np.flatnonzero(breaks) + 1)]
+    corners = tracking.path.corners
+    runs: list[tuple[int, int]] = []
+    for first, last in unbroken:
+        inner = corners[(corners > first) & (corners < last)].tolist()
+        runs += zip([first, *inner], [*inner, last], strict=True)
+    return runs
 
 
-def _move(robot: Robot, q0: ArrayLike, q1: ArrayLike, seconds: float | None, progress: float, phase: Phase) -> Stretch:
+def _move(
+    robot: Robot, q0: ArrayLike, q1: ArrayLike, seconds: float | None, progress: float, phase: Phase, law: Law
+) -> Stretch:
     ends = np.array([np.asarray(q0, dtype=np.float64), np.asarray(q1, dtype=np.float64)])
-    shortest = QUINTIC_PEAK_SPEED * float(np.max(np.abs(ends[1] - ends[0]) / _speeds(robot)))
-    duration = max(seconds or _SHORTEST_MOVE, shortest if seconds else shortest / _CALM)
-    return Stretch(duration, np.array([0.0, 1.0]), ends, np.full(2, progress), phase)
+    made = Stretch(1.0, np.array([0.0, 1.0]), ends, np.full(2, progress), phase, law)
+    shortest = _shortest_seconds(robot, made)
+    calm = max(_SHORTEST_MOVE, shortest / _CALM)
+    return replace(made, duration=calm if seconds is None else max(seconds, shortest, _SHORTEST_STRETCH))
 
 
 def _wait(q: FloatArray, first: int, last: int, pace: float) -> list[Stretch]:
@@ -183,14 +237,48 @@ def _wait(q: FloatArray, first: int, last: int, pace: float) -> list[Stretch]:
     return [Stretch((last - first) * pace, np.array([0.0, 1.0]), np.array([q, q]), np.array([first, last], float))]
 
 
-def _along(tracking: Tracking, first: int, last: int, pace: float) -> list[Stretch]:
-    """Through the reached points first…last, each step as long as the pace says, or longer where a joint needs it."""
+def _along(tracking: Tracking, first: int, last: int, pace: float, law: Law) -> list[Stretch]:
+    """Through the reached points first…last, as long as the pace says, or longer where a joint needs it."""
     if last == first:
         return []
     q = tracking.q[first : last + 1]
-    needed = QUINTIC_PEAK_SPEED * np.max(np.abs(np.diff(q, axis=0)) / _speeds(tracking.robot), axis=1)
-    times = np.concatenate([[0.0], np.cumsum(np.maximum(pace, needed))])
-    return [Stretch(float(times[-1]), times / times[-1], q, np.arange(first, last + 1, dtype=np.float64))]
+    made = Stretch(1.0, _knots(tracking, first, last), q, np.arange(first, last + 1, dtype=np.float64), law=law)
+    return [replace(made, duration=max((last - first) * pace, _shortest_seconds(tracking.robot, made)))]
+
+
+def _knots(tracking: Tracking, first: int, last: int) -> FloatArray:
+    """Fractions 0…1 of the way at which the points first…last lie, by the lengths of the ways between them.
+
+    Where the tool turns on the spot, the way of the joints stands in; a spline over uneven steps would swing.
+    """
+    places = np.linalg.norm(np.diff(tracking.path.points[first : last + 1], axis=0), axis=1)
+    turns = np.abs(np.diff(tracking.q[first : last + 1], axis=0)).max(axis=1)
+    steps = sum(part / part.sum() if part.sum() > 0.0 else part for part in (places, 0.05 * turns))
+    knots = np.concatenate([[0.0], np.cumsum(np.maximum(steps, 1e-6 / len(turns)))])
+    return np.asarray(knots / knots[-1])
+
+
+def _shortest_seconds(robot: Robot, stretch: Stretch) -> float:
+    """The least duration of a stretch (given with one of 1 s) that keeps speeds and accelerations of the joints."""
+    moments = stretch.at(_telling_times(stretch))
+    speed = float(np.max(np.abs(moments.qd) / _speeds(robot)))
+    acceleration = float(np.max(np.abs(moments.qdd) / accelerations(robot)))
+    return _BETWEEN_SAMPLES * max(speed, math.sqrt(acceleration))
+
+
+def _telling_times(stretch: Stretch) -> FloatArray:
+    """Fractions of the duration at which the peaks are seen: at the knots, a few times between them, and evenly."""
+    even = np.linspace(0.0, 1.0, _EVEN_SAMPLES)
+    between = np.linspace(0.0, 1.0, 6)[:-1, None]
+    ways = np.concatenate([(stretch.knots[:-1] + between * np.diff(stretch.knots)).ravel(), [1.0]])
+    times = np.interp(ways, LAWS[stretch.law].q(even)[:, 0], even)
+    return np.concatenate([even, times])
+
+
+def accelerations(robot: Robot) -> FloatArray:
+    """(n,) max_acceleration of each joint [rad/s², m/s²], infinite where it is not known."""
+    limits = [joint.max_acceleration for joint in robot.joints]
+    return np.array([math.inf if limit is None else limit.value for limit in limits])
 
 
 def _speeds(robot: Robot) -> FloatArray:

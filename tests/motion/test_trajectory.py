@@ -7,8 +7,8 @@ import pytest
 
 from rvsim import load_robot
 from rvsim.lab import named_path
-from rvsim.motion import Tracking, Trajectory, joint_move, track, trajectory_of
-from rvsim.motion.trajectory import Stretch
+from rvsim.motion import Tracking, Trajectory, joint_move, through_points, track, trajectory_of
+from rvsim.motion.trajectory import Law, Stretch, accelerations
 
 CASES = [
     ("rv-m1", "letter-board"),
@@ -39,6 +39,35 @@ def test_no_joint_jumps_or_exceeds_its_speed(robot: str, path: str) -> None:
     fastest = [joint.max_speed.value for joint in tracking.robot.joints if joint.max_speed is not None]
     assert len(fastest) == tracking.robot.dof
     assert np.all(speeds <= np.array(fastest) * (1.0 + 1e-9))
+
+
+@pytest.mark.parametrize(("robot", "path"), CASES)
+@pytest.mark.parametrize("law", ["quintic", "cubic", "trapezoid"])
+def test_speeds_and_accelerations_are_derivatives_and_within_the_limits(robot: str, path: str, law: Law) -> None:
+    tracking = tracked(robot, path)
+    trajectory = trajectory_of(tracking, tracking.robot.home, law=law)
+    assert trajectory is not None
+    times = np.linspace(0.0, trajectory.duration, 2003)
+    moments = trajectory.at(times)
+    assert np.all(np.abs(moments.qdd) <= accelerations(tracking.robot) * 1.001)
+    inside = np.abs(times[:, None] - trajectory.starts).min(axis=1) > 2e-4  # not across the border of two stretches
+    before, after = trajectory.at(times[inside] - 1e-4), trajectory.at(times[inside] + 1e-4)
+    speeds = (after.q - before.q) / 2e-4
+    assert np.allclose(speeds, moments.qd[inside], atol=2e-3)
+
+
+def test_the_tool_rests_at_the_corners_of_a_star() -> None:
+    tracking, trajectory = played("scara", "star")
+    assert len(tracking.path.corners) == 4  # and the fifth is where it begins and ends
+    at_corner = [t for t in trajectory.starts[2:-1] if trajectory.path_index(t) in tracking.path.corners]
+    assert len(at_corner) == 4
+    assert np.abs(trajectory.at(at_corner).qd).max() < 1e-9
+
+
+def test_a_smooth_path_has_no_corners_however_coarse() -> None:
+    turn = np.linspace(0.0, 2.0 * np.pi, 12)
+    circle = through_points(np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], axis=1))
+    assert not len(circle.corners)
 
 
 @pytest.mark.parametrize(("robot", "path"), CASES)
@@ -97,7 +126,7 @@ def test_time_is_clamped_and_a_wish_for_a_duration_is_heeded_where_the_joints_al
     assert fast is not None
     assert slow.duration == pytest.approx(45.0)
     assert slow.path_start == 5.0
-    assert 1.0 < fast.duration < 10.0
+    assert 1.0 < fast.duration < 20.0
     assert np.array_equal(slow.q([-1.0, 99.0]), [tracking.robot.home, tracking.q[-1]])
     assert slow.phase(-1.0) == "approach"
     assert slow.path_index(99.0) == 49.0
