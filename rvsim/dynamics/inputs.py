@@ -39,6 +39,8 @@ def stacked(columns: Sequence[FloatArray], scalars: Sequence[ArrayLike]) -> Floa
     """All of them side by side, (..., k): arrays (..., n), then scalars (...), their leading shapes broadcast."""
     numbers = [np.asarray(scalar, dtype=np.float64)[..., None] for scalar in scalars]
     parts = [*columns, *numbers]
+    if all(part.ndim == 1 for part in parts):
+        return np.concatenate(parts)
     shape = np.broadcast_shapes(*(part.shape[:-1] for part in parts))
     # Column by column in memory: that is how the players read it.
     inputs = np.empty((sum(part.shape[-1] for part in parts), *shape))
