@@ -9,7 +9,11 @@ from rvsim.gui.preferences import Preferences
 from rvsim.lab.sentences import Units
 from rvsim.robot import Robot
 
-Kind = Literal["angle", "length", "unit_length", "number"]
+Kind = Literal[
+    "angle", "length", "unit_length", "number",
+    "angle_speed", "length_speed", "unit_speed", "angle_acceleration", "length_acceleration", "unit_acceleration",
+    "force", "torque", "mass", "inertia", "energy", "gravity",
+]  # fmt: skip
 
 
 class Display(NamedTuple):
@@ -28,13 +32,29 @@ _DISPLAYS: dict[tuple[str, str], Display] = {
     ("length", "m"): Display(1.0, " m", 4, 0.001),
     ("unit_length", ""): Display(1.0, " unit", 3, 0.01),
     ("number", ""): Display(1.0, "", 4, 0.01),
+    ("angle_speed", "deg"): Display(180.0 / math.pi, " °/s", 1, 5.0),
+    ("angle_speed", "rad"): Display(1.0, " rad/s", 3, 0.1),
+    ("length_speed", "mm"): Display(1e3, " mm/s", 1, 10.0),
+    ("length_speed", "m"): Display(1.0, " m/s", 4, 0.01),
+    ("unit_speed", ""): Display(1.0, " unit/s", 3, 0.1),
+    ("angle_acceleration", "deg"): Display(180.0 / math.pi, " °/s²", 1, 10.0),
+    ("angle_acceleration", "rad"): Display(1.0, " rad/s²", 3, 0.1),
+    ("length_acceleration", "mm"): Display(1e3, " mm/s²", 1, 10.0),
+    ("length_acceleration", "m"): Display(1.0, " m/s²", 4, 0.01),
+    ("unit_acceleration", ""): Display(1.0, " unit/s²", 3, 0.1),
+    ("force", ""): Display(1.0, " N", 1, 1.0),
+    ("torque", ""): Display(1.0, " N m", 2, 0.1),
+    ("mass", ""): Display(1.0, " kg", 3, 0.1),
+    ("inertia", ""): Display(1.0, " kg m²", 5, 0.001),
+    ("energy", ""): Display(1.0, " J", 2, 1.0),
+    ("gravity", ""): Display(1.0, " m/s²", 3, 0.1),
 }
 
 
 def display(kind: Kind, preferences: Preferences) -> Display:
     """How that kind is shown under the present preferences."""
     units = {"angle": preferences["angle_unit"], "length": preferences["length_unit"]}
-    shown = _DISPLAYS[kind, units.get(kind, "")]
+    shown = _DISPLAYS[kind, units.get(kind.partition("_")[0], "")]
     return shown._replace(decimals=shown.decimals + preferences["extra_decimals"])
 
 
@@ -51,6 +71,27 @@ def length_kind(robot: Robot) -> Kind:
 def joint_kind(robot: Robot, joint: int) -> Kind:
     """Whether that joint's value is an angle or a length."""
     return "angle" if robot.joints[joint].revolute else length_kind(robot)
+
+
+def speed_kind(robot: Robot, joint: int) -> Kind:
+    """What that joint's velocity is shown as."""
+    return _SPEEDS[joint_kind(robot, joint)]
+
+
+def acceleration_kind(robot: Robot, joint: int) -> Kind:
+    """What that joint's acceleration is shown as."""
+    return _ACCELERATIONS[joint_kind(robot, joint)]
+
+
+def torque_kind(robot: Robot, joint: int) -> Kind:
+    """A turning joint takes a torque, a sliding one a force."""
+    return "torque" if robot.joints[joint].revolute else "force"
+
+
+_SPEEDS: dict[Kind, Kind] = {"angle": "angle_speed", "length": "length_speed", "unit_length": "unit_speed"}
+_ACCELERATIONS: dict[Kind, Kind] = {
+    "angle": "angle_acceleration", "length": "length_acceleration", "unit_length": "unit_acceleration",
+}  # fmt: skip
 
 
 def format_number(value: float, decimals: int) -> str:
