@@ -92,6 +92,7 @@ class GizmoDrag(QObject):
         self._lit = ""
         self._grip: Grip | None = None
         self._amount = 0.0
+        self._before = control.session.experiment  # when the drag began
         for signal in (control.changed, control.offer_changed, view.camera_changed):
             signal.connect(lambda *_: self._show())
         preferences.changed.connect(lambda name: self._show() if name == "theme" else None)
@@ -133,6 +134,7 @@ class GizmoDrag(QObject):
         if self._grip is None:
             return False
         self._amount, self._lit = 0.0, handle.key
+        self._before = self._control.session.experiment
         self._control.session.end_stroke()
         self._view.setCursor(Qt.CursorShape.ClosedHandCursor)
         self._show()
@@ -152,7 +154,7 @@ class GizmoDrag(QObject):
         """Let go: the drag becomes one step of undo."""
         if self._grip is None:
             return
-        self._control.flush()
+        self._control.settle()
         self._grip = None
         self._control.session.end_stroke()
         self._view.unsetCursor()
@@ -162,9 +164,8 @@ class GizmoDrag(QObject):
         """Esc: back to where the drag began; whether there was one."""
         if self._grip is None:
             return False
-        grip, self._grip = self._grip, None
-        self._control.request(Wish(grip.T, "Drag the tool", "drag the target", self._freedom().task))
-        self._control.flush()
+        text, self._grip = self._text(), None
+        self._control.take_back(self._before, text, "drag the target")
         self._control.session.end_stroke()
         self._show()
         return True
@@ -179,7 +180,7 @@ class GizmoDrag(QObject):
         return "Turn the tool" if ring else "Drag the tool"
 
     def _wish(self, T: FloatArray, text: str, merge: str) -> None:
-        self._control.request(Wish(T, text, merge, self._freedom().task))
+        self._control.request(Wish(T, text, merge, self._freedom().task, creeps=True))
 
     # --- the keyboard ----------------------------------------------------------------------------------------------
 
@@ -193,6 +194,7 @@ class GizmoDrag(QObject):
         if step is None:
             return False
         if not repeated:
+            self._control.settle()
             self._control.session.end_stroke()
         scale = next((scale for modifier, scale in _NUDGE.items() if modifiers & modifier), 1.0)
         length = scale * _STEP[self._control.session.robot.length_unit]

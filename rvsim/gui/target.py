@@ -26,6 +26,7 @@ from rvsim.gui.target_solution import (
     branch_at,
     followed,
     immediate_sentence,
+    nearer,
     nearest_pose,
     offer_of,
     seen_from,
@@ -36,16 +37,23 @@ from rvsim.kinematics import DEFAULT_ORDER, ORDER_CRITERIA, Branch, branch_label
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_FRAME_MS = 16
+_FRAME_MS, _REST_MS = 16, 80
+_LEAP = 0.25  # [rad, m] an arm that was left behind goes no further back to the target at once
+_STRIDES = 40  # after which an arm that creeps is given up
 
 
 class Wish(NamedTuple):
-    """A wanted pose T (4, 4) on its way: the text and merge key of its undo step, and another task than the chosen."""
+    """A wanted pose T (4, 4) on its way: the text and merge key of its undo step, and another task than the chosen.
+
+    Where the arm cannot follow a hand, it `creeps`: it goes as near as it can, at once; why not is asked when the hand
+    rests.
+    """
 
     T: FloatArray
     text: str
     merge: str
     task: str = ""
+    creeps: bool = False
 
 
 class TargetControl(QObject):
@@ -82,6 +90,8 @@ class TargetControl(QObject):
         self._frame = QTimer(self, singleShot=True)
         self._frame.setTimerType(Qt.TimerType.PreciseTimer)
         self._frame.timeout.connect(self.flush)
+        self._rest = QTimer(self, singleShot=True, interval=_REST_MS)
+        self._rest.timeout.connect(self._on_rest)
         self._worker = LatestWorker(self)
         self._worker.done.connect(self._on_nearest)
         session.changed.connect(self._on_changed)
@@ -155,20 +165,46 @@ class TargetControl(QObject):
 
     def flush(self) -> None:
         """Do what was requested, now."""
+        self._flush(1)
+
+    def settle(self) -> None:
+        """Do what was requested, let an arm that creeps arrive, and know why it could come no nearer."""
+        self._flush(_STRIDES)
+        if self._rest.isActive():
+            self._on_rest()
+
+    def _flush(self, strides: int) -> None:
         self._frame.stop()
         wish, self._pending = self._pending, None
         if wish is not None:
             self._since.start()
-            self.set_target(wish)
+            self._follow(wish, strides)
 
     def set_target(self, wish: Wish) -> None:
         """Want the tool in another pose; the arm follows on its branch if it is to and can."""
-        answer = solve(self._question(np.asarray(wish.T), wish.task))
-        step = followed(answer) if self.follows else None
-        if step is None:
-            self._miss(answer, wish)
-        else:
+        self._follow(wish, 1)
+
+    def _follow(self, wish: Wish, strides: int) -> None:
+        left_behind = self._wanted is not None
+        answer = solve(self._question(np.asarray(wish.T), wish.task), hurried=wish.creeps)
+        step = followed(answer, self._label if left_behind else "") if self.follows else None
+        far = step is None or (left_behind and step.branch.distance > _LEAP)
+        crept = nearer(answer, strides) if far and wish.creeps and self.follows else None
+        if step is not None and (crept is None or crept.settled):
             self._arrive(answer, step, wish)
+            return
+        self._miss(answer, wish, answer.question.q if crept is None else crept.q)
+        if crept is not None and not crept.settled and strides == 1 and self._pending is None:
+            self.request(wish)  # there is still some way to go
+
+    def take_back(self, experiment: Experiment, text: str, merge: str) -> None:
+        """Be again where a drag began, as if it had never been."""
+        self._frame.stop()
+        self._pending = None
+        if self.session.experiment is not experiment:
+            self._put(experiment, text, merge)
+            self._wanted = experiment.target
+            self._refresh(self._stale_target())
 
     def target_at_tool(self) -> None:
         """Want the tool where it is."""
@@ -219,12 +255,19 @@ class TargetControl(QObject):
         self.changed.emit()
         self._put(replace(self.session.experiment, q=q, target=None), wish.text, wish.merge)
 
-    def _miss(self, answer: Answer, wish: Wish) -> None:
-        """The arm stays; the target goes without it."""
+    def _miss(self, answer: Answer, wish: Wish, q: FloatArray) -> None:
+        """The arm stays, or goes to q (n,) as near as it can; the target goes without it."""
         self.T = self._wanted = wish.T
-        self._show(answer, answer.question.q)
+        self._show(seen_from(answer, q), q)
         self.changed.emit()
-        self._put(replace(self.session.experiment, target=wish.T), wish.text, wish.merge)
+        self._put(replace(self.session.experiment, q=q, target=wish.T), wish.text, wish.merge)
+
+    def _on_rest(self) -> None:
+        """The hand rests: time to know why not, and what is nearest."""
+        self._rest.stop()
+        if self.answer is not None and self.answer.hurried:
+            self._show(solve(replace(self.answer.question, q=self.session.q)), self.session.q)
+            self.changed.emit()
 
     def _changed_branch(self, answer: Answer, before: str) -> str:
         old = [branch for branch in answer.branches if branch.label == before]
@@ -264,7 +307,11 @@ class TargetControl(QObject):
         self.sentence = immediate_sentence(answer, units)
         here = branch_at(answer, q)
         self._label = here.label if here is not None else self._label
-        if answer.missed:
+        self._rest.stop()
+        if answer.missed and answer.hurried:
+            self._worker.cancel()
+            self._rest.start()
+        elif answer.missed:
             self._worker.ask(partial(nearest_pose, answer, units))
         else:
             self._worker.cancel()
@@ -295,6 +342,7 @@ class TargetControl(QObject):
         elif after.q is before.q and after.target is before.target and after.ignore_limits == before.ignore_limits:
             return
         self._pending = None
+        self._rest.stop()
         kept = after.target is before.target and not self.follows
         self._wanted = after.target if after.target is not before.target or kept else None
         self._stale = True

@@ -16,15 +16,17 @@ from rvsim.kinematics import (
     Branch,
     Failure,
     NumericResult,
+    SolverOptions,
     forward_kinematics,
-    inverse_kinematics,
     inverse_tasks,
     jacobian,
     limit_margins,
     solve_numeric,
 )
+from rvsim.kinematics.inverse.creep import Crept, creep
 from rvsim.kinematics.inverse.nearest import nearest_configuration
 from rvsim.kinematics.inverse.result import in_order
+from rvsim.kinematics.inverse.solve import attempt
 from rvsim.lab.sentences import Units, failure_sentence
 from rvsim.motion.continuity import continuous
 from rvsim.robot import Robot
@@ -49,6 +51,7 @@ TASK_TITLES = {
 }
 _KEPT = {"position, wrist kept": (3, 4)}  # the joints that a task leaves as they are
 _PLACES = ("position", "position, wrist kept", "x,y")  # tasks that leave the whole orientation open
+_CREEPING_STEPS = 8  # of Newton's method, a tenth of a millisecond each
 _HERE = 1e-9  # [rad, m] a branch so close is where the arm is
 
 
@@ -92,12 +95,17 @@ class Question:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """All branches, best first, or the one row of a numeric solver; `failure` or `numeric` say why none will do."""
+    """All branches, best first, or the one row of a numeric solver; `failure` or `numeric` say why none will do.
+
+    `T_goal` (4, 4) is the wanted pose as the arm can understand it. A `hurried` answer does not know why not.
+    """
 
     question: Question
     branches: tuple[Branch, ...]
     failure: Failure | None = None
     numeric: NumericResult | None = None
+    T_goal: FloatArray | None = None
+    hurried: bool = False
 
     @property
     def usable(self) -> tuple[Branch, ...]:
@@ -112,18 +120,26 @@ class Answer:
         return not self.usable
 
 
-def solve(question: Question) -> Answer:
-    """Every branch for the question, or what the numeric solver finds from where the arm is."""
+def solve(question: Question, *, hurried: bool = False) -> Answer:
+    """Every branch for the question, or what the numeric solver finds from where the arm is.
+
+    In a hurry nobody asks why a place cannot be reached, and a numeric solver tries no other starts.
+    """
     if question.solver != CLOSED_FORM:
-        return _solve_numeric(question)
-    result = inverse_kinematics(question.robot, question.T, task=question.task, near=question.q, order=question.order)
-    return Answer(question, result.branches, result.failure)
+        return _solve_numeric(question, hurried)
+    tried = attempt(question.robot, question.T, task=question.task, near=question.q, order=question.order)
+    known = tried.reached or (hurried and not tried.branches)
+    return Answer(question, tried.branches, None if known else tried.failure(), None, tried.found.T_goal, hurried)
 
 
-def _solve_numeric(question: Question) -> Answer:
+_HURRIED = SolverOptions(max_iterations=60, allow_random_restarts=False)
+
+
+def _solve_numeric(question: Question, hurried: bool) -> Answer:
     robot = question.robot
     task = "position" if question.place_only else "pose"
-    found = solve_numeric(robot, question.T, question.q, question.solver, task=task)
+    options = _HURRIED if hurried else SolverOptions()
+    found = solve_numeric(robot, question.T, question.q, question.solver, task=task, options=options)
     margin = limit_margins(robot, found.q)
     entries = np.s_[:3, 3:] if question.place_only else np.s_[:3, :]
     sigma = np.linalg.svd(jacobian(robot, found.q), compute_uv=False)
@@ -137,7 +153,7 @@ def _solve_numeric(question: Question) -> Answer:
         distance=float(np.abs(found.q - question.q).max()),
         continuum=False,
     )
-    return Answer(question, (branch,), None, found)
+    return Answer(question, (branch,), None, found, question.T, hurried)
 
 
 class Step(NamedTuple):
@@ -147,15 +163,19 @@ class Step(NamedTuple):
     changed_branch: bool
 
 
-def followed(answer: Answer) -> Step | None:
-    """The branch that the arm follows: its own as long as it goes on, else the nearest; None if there is none."""
+def followed(answer: Answer, own: str = "") -> Step | None:
+    """The branch that the arm follows: its own as long as it goes on, else the nearest; None if there is none.
+
+    At the edge of its reach an arm is on two branches at once: there it takes the one labelled `own`.
+    """
     nearest = sorted(answer.usable, key=lambda branch: branch.distance)
     if not nearest:
         return None
-    if nearest[0].distance < _HERE or _go_on(answer.question, nearest[:1])[0]:
-        return Step(nearest[0], False)
-    others = zip(nearest[1:], _go_on(answer.question, nearest[1:]), strict=True)
-    return next((Step(branch, False) for branch, goes_on in others if goes_on), Step(nearest[0], True))
+    first, *others = sorted(nearest, key=lambda branch: branch.label != own)
+    if first.distance < _HERE or _go_on(answer.question, [first])[0]:
+        return Step(first, False)
+    going_on = zip(others, _go_on(answer.question, others), strict=True)
+    return next((Step(branch, False) for branch, goes_on in going_on if goes_on), Step(nearest[0], True))
 
 
 def _go_on(question: Question, branches: Sequence[Branch]) -> NDArray[np.bool_]:
@@ -187,23 +207,43 @@ class NearestPose(NamedTuple):
     rotation_error: float
 
 
-def nearest_pose(answer: Answer, units: Units) -> NearestPose:
-    """The nearest pose for a target that cannot be had. It takes 20 to 100 ms: not for the window's own thread."""
-    question, failure = answer.question, answer.failure
+def nearer(answer: Answer, times: int = 1) -> Crept:
+    """The joints that bring the tool nearer to the wanted pose without a jump, by so many strides."""
+    question, limits = answer.question, _allowed(answer.question)
+    T = question.T if answer.T_goal is None else answer.T_goal
+    crept = Crept(question.q, False)
+    for _ in range(times):
+        crept = creep(question.robot, crept.q, T, limits, place_only=question.place_only, steps=_CREEPING_STEPS)
+        if crept.settled:
+            break
+    return crept
+
+
+def _allowed(question: Question) -> FloatArray:
+    """(n, 2) the bounds of the joints: limits, if they count, and joints that the task keeps where they are."""
     robot = question.robot
     limits = np.tile([-np.inf, np.inf], (robot.dof, 1)) if question.ignore_limits else robot.limits.copy()
     kept = list(_KEPT.get(question.task, ()))
     limits[kept] = question.q[kept, None]
+    return limits
+
+
+def nearest_pose(answer: Answer, units: Units) -> NearestPose:
+    """The nearest pose for a target that cannot be had. It takes 20 to 100 ms: not for the window's own thread."""
+    question, failure = answer.question, answer.failure
+    robot = question.robot
     sentence = failure_sentence(failure, units) if failure is not None else immediate_sentence(answer, units)
     q = None if failure is None else failure.nearest.q
     if q is None or (not question.ignore_limits and limit_violations(robot, q)):
         starts = np.array([question.q, *(branch.q for branch in answer.branches)])
-        q = nearest_configuration(robot, question.T, question.q, limits, starts, place_only=question.place_only).q
+        limits, place_only = _allowed(question), question.place_only
+        q = nearest_configuration(robot, question.T, question.q, limits, starts, place_only=place_only).q
     T = forward_kinematics(robot, q)
     left = pose_difference(T, question.T)
     return NearestPose(q, T, sentence, float(left.position), float(left.angle))
 
 
+_CREEPING = "The arm cannot follow that far. It stays as near as it can."
 _AT_ONCE = {
     "reach": "The place is out of reach.",
     "orientation": "The place can be reached, but not in this orientation.",
@@ -217,5 +257,7 @@ def immediate_sentence(answer: Answer, units: Units) -> str:
     if answer.numeric is not None:
         return answer.numeric.reason
     failure = answer.failure
+    if failure is None and answer.hurried:
+        return _CREEPING
     assert failure is not None, "no branch that can be used, and no reason"
     return failure_sentence(failure, units) if failure.kind == "limits" else _AT_ONCE[failure.kind]
