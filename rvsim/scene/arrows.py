@@ -36,6 +36,7 @@ def arrow_items(
     *,
     width: float = 3.0,
     dashed: bool = False,
+    longest_head: float = math.inf,
 ) -> tuple[Item, ...]:
     """A shaft from `start` (3,) and a cone that ends at start + vector (3,) [m]; a zero vector gives ().
 
@@ -43,12 +44,13 @@ def arrow_items(
         key: of the shaft; the other pieces add to it.
         width: of the shaft, in pixels.
         dashed: for what is only wished for.
+        longest_head: how long the cone is at most [m]; it is a quarter of a short arrow.
     """
     length = float(np.linalg.norm(vector))
     if not length > 1e-9:
         return ()
     direction, tip = vector / length, start + vector
-    foot = tip - _HEAD_SHARE * length * direction
+    foot = tip - min(_HEAD_SHARE * length, longest_head) * direction
     shaft = np.stack([start, foot])
     return (*_stroke(key, shaft, color, palette, width, dashed), *_head(key, foot, tip, color))
 

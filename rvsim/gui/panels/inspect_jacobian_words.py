@@ -1,0 +1,213 @@
+"""What the Jacobian page says: rows and units of each kind of Jacobian, and a column's identity with its numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from rvsim.gui.panels.inspect_jacobian_table import Column, Row
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import display, format_number, length_kind
+from rvsim.kinematics import jacobian, link_transforms
+from rvsim.kinematics.differences import Rows
+from rvsim.kinematics.rates import analytic_jacobian, tool_jacobian
+from rvsim.lab.worked import Equation
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.scene.jacobian_column import frame_of_joint
+from rvsim.scene.points import joint_axes
+
+_MOST_DECIMALS = 3  # six columns stand side by side
+
+
+class JacobianKind(NamedTuple):
+    """A kind of Jacobian: its title, the names of its rows, and what it is in a sentence."""
+
+    title: str
+    names: tuple[str, ...]
+    meaning: str
+
+
+_LINEAR = ("vx", "vy", "vz")
+_TURNS = ("ωx", "ωy", "ωz")
+KINDS: dict[Rows, JacobianKind] = {
+    "base": JacobianKind("Base axes", (*_LINEAR, *_TURNS), "Geometric: v and ω of the tool in the base's axes."),
+    "tool": JacobianKind("Tool axes", (*_LINEAR, *_TURNS), "Geometric: v and ω of the tool in its own axes."),
+    "rpy": JacobianKind(
+        "RPY rates",
+        ("ẋ", "ẏ", "ż", "roll′", "pitch′", "yaw′"),
+        "Analytic: how fast position, roll, pitch and yaw change.",
+    ),
+    "zyz": JacobianKind(
+        "ZYZ rates",
+        ("ẋ", "ẏ", "ż", "φ′", "θ′", "ψ′"),
+        "Analytic: how fast position and the ZYZ angles change.",
+    ),
+}
+FORMULAS: dict[Rows, Callable[[Robot, FloatArray], FloatArray]] = {
+    "base": jacobian,
+    "tool": tool_jacobian,
+    "rpy": partial(analytic_jacobian, angles="rpy"),
+    "zyz": partial(analytic_jacobian, angles="zyz"),
+}
+_LOCKED = {
+    "rpy": "At pitch ±90° roll and yaw have no rates: the notation is singular there, not the arm.",
+    "zyz": "At θ = 0° or 180° φ and ψ have no rates: the notation is singular there, not the arm.",
+}
+
+
+def meaning(kind: Rows, J: FloatArray) -> str:
+    """What these rows are, and why some of them are missing."""
+    return _LOCKED[kind] if np.isnan(J).any() else KINDS[kind].meaning
+
+
+def length_factor(robot: Robot, preferences: Preferences) -> tuple[float, str, int]:
+    """Shown lengths a metre, their unit, and the decimals for which there is room."""
+    shown = display(length_kind(robot), preferences)
+    return shown.factor, shown.suffix.strip(), min(shown.decimals, _MOST_DECIMALS)
+
+
+def table_rows(kind: Rows, robot: Robot, preferences: Preferences) -> tuple[Row, ...]:
+    """The six rows."""
+    _, unit, decimals = length_factor(robot, preferences)
+    words = [f"speed of the tool's origin [{unit}/s per joint speed]"] * 3 + ["turning [rad/s per joint speed]"] * 3
+    places = [decimals] * 3 + [_MOST_DECIMALS] * 3
+    return tuple(
+        Row(name, f"{name}: {text}", count, block)
+        for name, text, count, block in zip(KINDS[kind].names, words, places, (0, 0, 0, 1, 1, 1), strict=True)
+    )
+
+
+def table_columns(robot: Robot) -> tuple[Column, ...]:
+    """One a joint."""
+    return tuple(Column(f"J{i}", f"J{i} {joint.name}", joint.color) for i, joint in enumerate(robot.joints, 1))
+
+
+def shown_values(J: FloatArray, robot: Robot, preferences: Preferences) -> FloatArray:
+    """J (6, n) in the units that are shown; a sliding joint's columns have a length on both sides."""
+    factor = length_factor(robot, preferences)[0]
+    values = np.array(J)
+    values[:3, robot.is_revolute] *= factor
+    values[3:, ~robot.is_revolute] /= factor
+    return values
+
+
+def entry_units(robot: Robot, preferences: Preferences) -> list[list[str]]:
+    """(6, n) the unit of each entry."""
+    unit = length_factor(robot, preferences)[1]
+    linear = [f"{unit}/rad" if turns else f"{unit}/{unit}" for turns in robot.is_revolute]
+    angular = ["rad/rad" if turns else f"rad/{unit}" for turns in robot.is_revolute]
+    return [linear] * 3 + [angular] * 3
+
+
+def units_line(robot: Robot, preferences: Preferences) -> str:
+    """The units in a line below the table."""
+    unit = length_factor(robot, preferences)[1]
+    kinds = [f"{unit} per rad in the upper rows, rad per rad in the lower ones"] if robot.is_revolute.any() else []
+    if not robot.is_revolute.all():
+        kinds.append(f"sliding joints: {unit} per {unit}")
+    return f"{'; '.join(kinds)}.".capitalize() if not robot.is_revolute.any() else f"{'; '.join(kinds)}."
+
+
+def check_line(difference: float, rows: Rows) -> str:
+    """How far the formulas are from differences of the forward kinematics [m, rad]."""
+    if np.isnan(difference):
+        return ""
+    what = "the angles of the forward kinematics" if rows in _LOCKED else "the forward kinematics"
+    return f"Checked by differences of {what}: largest difference {format_error(difference)}."
+
+
+def format_error(value: float) -> str:
+    """A residual as it stands in a sentence."""
+    return f"{value:.1e}".replace("-", "\u2212")
+
+
+# --- one column ------------------------------------------------------------------------------------------------------
+
+
+def column_equations(
+    robot: Robot, q: FloatArray, joint: int, kind: Rows, J: FloatArray, preferences: Preferences
+) -> tuple[Equation, ...]:
+    """The identity of a column with the present numbers, in the axes that are shown."""
+    T = link_transforms(robot, q)
+    tool = T[-1] @ robot.T_flange_tool
+    frame, z = frame_of_joint(robot, joint), joint_axes(robot, T)[joint]
+    arm = tool[:3, 3] - T[frame, :3, 3]
+    if kind == "tool":
+        z, arm = z @ tool[:3, :3], arm @ tool[:3, :3]
+    factor, _, decimals = length_factor(robot, preferences)
+    axis = _vector(z, _MOST_DECIMALS)
+    if not robot.joints[joint].revolute:
+        return (
+            Equation(f"J_{{{joint + 1}}}", _stacked(f"z_{{{frame}}}", "0"), "", ""),
+            Equation(f"z_{{{frame}}}", "", "", axis),
+        )
+    cross = f"z_{{{frame}}}\\times (p-o_{{{frame}}})"
+    lines = [
+        Equation(f"J_{{{joint + 1}}}", _stacked(cross, _lower(kind, frame)), "", ""),
+        Equation(
+            cross,
+            "",
+            f"{axis}\\times {_vector(factor * arm, decimals)}",
+            _vector(factor * np.cross(z, arm), decimals),
+        ),
+    ]
+    if kind in ("rpy", "zyz"):
+        lines.append(Equation(_lower(kind, frame), "", "", _vector(J[3:, joint], _MOST_DECIMALS)))
+    return tuple(lines)
+
+
+def column_title(robot: Robot, joint: int) -> str:
+    """Above the identity."""
+    name = robot.joint_names[joint]
+    return f"Column J{joint + 1}" if name == f"J{joint + 1}" else f"Column J{joint + 1}, {name}"
+
+
+def column_note(robot: Robot, joint: int, kind: Rows, preferences: Preferences) -> str:
+    """What the letters are."""
+    frame, unit = frame_of_joint(robot, joint), length_factor(robot, preferences)[1]
+    axes = "tool" if kind == "tool" else "base"
+    if not robot.joints[joint].revolute:
+        return f"z{_sub(frame)}: the way of the sliding joint. It moves the tool along, and does not turn it."
+    rates = " B⁻¹ turns ω into the rates of the angles." if kind in ("rpy", "zyz") else ""
+    return (
+        f"z{_sub(frame)}: the joint's axis; o{_sub(frame)}: a point on it; p: the tool. Lengths in {unit}, {axes} "
+        f"axes.{rates}"
+    )
+
+
+def speed_text(robot: Robot, q: FloatArray, joint: int, preferences: Preferences) -> str:
+    """How fast the tool moves for one of the joint: the label in the scene."""
+    factor, unit, decimals = length_factor(robot, preferences)
+    length = float(np.linalg.norm(jacobian(robot, q)[:3, joint]))
+    if robot.joints[joint].revolute:
+        return f"{format_number(factor * length, decimals)} {unit}/rad"
+    return f"{format_number(length, decimals)} {unit}/{unit}"
+
+
+def _sub(number: int) -> str:
+    return str(number).translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+
+
+def _lower(kind: Rows, frame: int) -> str:
+    return f"B^{{-1}} z_{{{frame}}}" if kind in ("rpy", "zyz") else f"z_{{{frame}}}"
+
+
+def _stacked(*entries: str) -> str:
+    return "\\begin{bmatrix}" + " \\\\ ".join(entries) + "\\end{bmatrix}"
+
+
+def _vector(values: FloatArray, decimals: int) -> str:
+    """A column whose digits have fixed places: another pose is the same shape, and needs not to be set anew."""
+    texts = ["–" if np.isnan(value) else f"{abs(value):.{decimals}f}" for value in values.tolist()]
+    width = max(map(len, texts))
+    cells = [_padded(text, value, width) for text, value in zip(texts, values.tolist(), strict=True)]
+    return _stacked(*cells)
+
+
+def _padded(digits: str, value: float, width: int) -> str:
+    sign = "{-}" if value < 0.0 and float(digits) != 0.0 else "\\phantom{-}"
+    return sign + "\\phantom{0}" * (width - len(digits)) + digits
