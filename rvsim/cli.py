@@ -342,7 +342,7 @@ _TWIST = ("vx", "vy", "vz", "wx", "wy", "wz")
 
 
 def _ik(options: argparse.Namespace) -> int:
-    from rvsim.kinematics import inverse_kinematics, inverse_tasks
+    from rvsim.kinematics import forward_kinematics, inverse_kinematics, inverse_tasks
     from rvsim.lab.tables import inverse_record
 
     robot = load_robot(options.arm)
@@ -351,11 +351,14 @@ def _ik(options: argparse.Namespace) -> int:
         task = next((name for name in inverse_tasks(robot) if name in _PLACE_TASKS), None)
         if task is None:
             raise InputError(f"{robot.title} needs an orientation as well: --rpy-deg roll,pitch,yaw.")
-    rpy_deg = _numbers("--rpy-deg", options.rpy_deg or "0,0,0", ("roll", "pitch", "yaw"), 3 * ["deg"])
+    near = _near(robot, options)
+    rotation = forward_kinematics(robot, near)[:3, :3]  # what is not asked for stays as it is, where it can
+    if options.rpy_deg is not None:
+        rpy_deg = _numbers("--rpy-deg", options.rpy_deg, ("roll", "pitch", "yaw"), 3 * ["deg"])
+        rotation = rotation_from_rpy(radians_from_degrees(rpy_deg))
     place = _lengths(robot, "--xyz-mm", options.xyz_mm, "xyz")
     assert place is not None  # the option is required
-    T = transform(rotation_from_rpy(radians_from_degrees(rpy_deg)), place)
-    result = inverse_kinematics(robot, T, task=task, near=_near(robot, options))
+    result = inverse_kinematics(robot, transform(rotation, place), task=task, near=near)
     _print(options, inverse_record(robot, result), _inverse_text(robot, result))
     return DONE if result.failure is None else FAILED
 

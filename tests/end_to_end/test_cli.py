@@ -118,7 +118,8 @@ def test_inverse_kinematics_gives_every_branch_or_the_reason(capsys: Capture) ->
 
 def test_a_place_is_enough_where_the_arm_can_do_without_an_orientation(capsys: Capture) -> None:
     assert "within the limits" in run(capsys, "ik", "rv-m1", "--xyz-mm", "300,100,200")
-    problem = run(capsys, "ik", "ur5e", "--xyz-mm", "300,100,200", status=BAD_INPUT)
+    assert "within the limits" in run(capsys, "ik", "ur5e", "--xyz-mm", "300,100,200")
+    problem = run(capsys, "ik", "scara", "--xyz-mm", "300,100,200", status=BAD_INPUT)
     assert "needs an orientation as well: --rpy-deg" in problem
 
 

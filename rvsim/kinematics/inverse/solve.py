@@ -51,6 +51,7 @@ def inverse_kinematics(
         T: T_base_tool.
         task: what of T counts, one of `inverse_tasks`; None is the arm's own: the pose, or "position", "position+yaw",
             "x,y" where the arm has fewer joints. "position+pitch+roll" lets a 5R arm turn T about the vertical.
+            "position" leaves the orientation free: a 6R arm keeps T's where a branch can, else turns it least.
         near: (n,) where the arm is [rad, m], for the order, the copies by whole turns, and joints that are free; None
             is its home.
         order: the criteria that put the branches in order, of `ORDER_CRITERIA`, the most important first.

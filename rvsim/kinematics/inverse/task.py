@@ -13,11 +13,14 @@ from rvsim.kinematics.inverse.batch import frame_entries, solve_block
 from rvsim.kinematics.inverse.closed_form import ClosedForm
 from rvsim.kinematics.inverse.copies import limit_copies
 from rvsim.kinematics.inverse.five_axis import FiveAxis
+from rvsim.kinematics.inverse.free_orientation import place_branches
 from rvsim.kinematics.inverse.free_pitch import free_pitches
 from rvsim.kinematics.inverse.kept_wrist import kept_wrist
 from rvsim.kinematics.inverse.projection import require_tip_on_roll_axis, turned_about_vertical
 from rvsim.kinematics.inverse.rrrp import RollAndExtend
+from rvsim.kinematics.inverse.spherical_wrist import SphericalWrist
 from rvsim.kinematics.inverse.textbook import Planar, Scara, yaw_of
+from rvsim.kinematics.inverse.ur import ParallelAxes
 from rvsim.spatial import rot_z
 from rvsim.spatial.arrays import FloatArray
 
@@ -28,7 +31,7 @@ class Candidates(NamedTuple):
     """Joints (b, n), NaN rows where a branch does not exist, their labels, and what they are to be checked against.
 
     T_goal (4, 4) is the target as the arm can understand it; `entries` is 6 if all of it counts, 3 if only the place;
-    joints that are `held` stay as they are.
+    joints that are `held` stay as they are; of a `continuum` each row is but one representative.
     """
 
     q: FloatArray
@@ -36,6 +39,7 @@ class Candidates(NamedTuple):
     T_goal: FloatArray
     entries: int
     held: tuple[int, ...] = ()
+    continuum: bool = False
 
 
 Solver = Callable[[ClosedForm, FloatArray, FloatArray], Candidates]
@@ -129,9 +133,17 @@ def _place_with_kept_wrist(form: ClosedForm, T: FloatArray, near: FloatArray) ->
     return Candidates(kept_wrist(form, place, near), form.labels, T, PLACE_ENTRIES, held=(3, 4))
 
 
+def _place_with_free_orientation(form: ClosedForm, T: FloatArray, near: FloatArray) -> Candidates:
+    """The place alone for a 6R arm: on each branch the orientation nearest to T's."""
+    assert isinstance(form, SphericalWrist | ParallelAxes)
+    return Candidates(place_branches(form, T, near), form.labels, T, PLACE_ENTRIES, continuum=True)
+
+
 _OTHER_TASKS: dict[tuple[type[ClosedForm], str], Solver] = {
     (FiveAxis, "position+pitch+roll"): _pitch_and_roll,
     (FiveAxis, "position"): _place_with_free_pitch,
     (FiveAxis, "position, wrist kept"): _place_with_kept_wrist,
     (RollAndExtend, "position"): _place_with_roll,
+    (ParallelAxes, "position"): _place_with_free_orientation,
+    (SphericalWrist, "position"): _place_with_free_orientation,
 }

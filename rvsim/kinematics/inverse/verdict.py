@@ -67,7 +67,7 @@ def _branch(
         residual=residual,
         manipulability=float(sigma.prod()),
         distance=float(np.abs(q - here).max()),
-        continuum=is_continuum(robot, q, found.entries),
+        continuum=found.continuum or is_continuum(robot, q, found.entries),
     )
 
 
