@@ -27,6 +27,7 @@ from rvsim.kinematics import (
     inverse_kinematics_batch,
     jacobian,
     link_transforms,
+    singularity,
     solve_numeric,
     solve_numeric_batch,
 )
@@ -48,6 +49,7 @@ __all__ = [
     "link_transforms",
     "load_robot",
     "robot_names",
+    "singularity",
     "solve_numeric",
     "solve_numeric_batch",
 ]

@@ -29,6 +29,7 @@ from rvsim.kinematics.inverse import (
     limit_margins,
 )
 from rvsim.kinematics.jacobian import PoseAndJacobian, jacobian, pose_and_jacobian
+from rvsim.kinematics.lost_motions import LostMotion, lost_motions
 from rvsim.kinematics.numeric import (
     AS_IN_SOURCE_000,
     AS_IN_SOURCE_002,
@@ -53,6 +54,9 @@ from rvsim.kinematics.rates import (
     tool_jacobian,
     tool_twist,
 )
+from rvsim.kinematics.singular_families import SingularFamily, families_known, singular_families
+from rvsim.kinematics.singular_poses import SingularPose, go_to_singularity
+from rvsim.kinematics.singularity import Measures, Singularity, singularity, task_rows
 
 __all__ = [
     "AS_IN_SOURCE_000",
@@ -70,21 +74,28 @@ __all__ = [
     "JointAccelerations",
     "JointRates",
     "LimitCopies",
+    "LostMotion",
+    "Measures",
     "Nearest",
     "NumericResult",
     "PoseAndJacobian",
     "Preset",
     "ProductOfExponentials",
+    "SingularFamily",
+    "SingularPose",
+    "Singularity",
     "SolverOptions",
     "analytic_jacobian",
     "angle_measure",
     "branch_labels",
     "dh_transform",
     "ellipsoid",
+    "families_known",
     "forward_by_exponentials",
     "forward_difference",
     "forward_kinematics",
     "free_pitch_batch",
+    "go_to_singularity",
     "inverse_branches",
     "inverse_kinematics",
     "inverse_kinematics_batch",
@@ -97,11 +108,15 @@ __all__ = [
     "limit_copies",
     "limit_margins",
     "link_transforms",
+    "lost_motions",
     "pose_and_jacobian",
     "product_of_exponentials",
     "screw_axes",
+    "singular_families",
+    "singularity",
     "solve_numeric",
     "solve_numeric_batch",
+    "task_rows",
     "tool_acceleration",
     "tool_jacobian",
     "tool_twist",
