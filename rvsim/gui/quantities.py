@@ -12,7 +12,7 @@ from rvsim.robot import Robot
 Kind = Literal[
     "angle", "length", "unit_length", "number",
     "angle_speed", "length_speed", "unit_speed", "angle_acceleration", "length_acceleration", "unit_acceleration",
-    "force", "torque", "mass", "inertia", "energy", "gravity",
+    "force", "torque", "unit_torque", "mass", "inertia", "energy", "gravity",
 ]  # fmt: skip
 
 
@@ -44,6 +44,7 @@ _DISPLAYS: dict[tuple[str, str], Display] = {
     ("unit_acceleration", ""): Display(1.0, " unit/s²", 3, 0.1),
     ("force", ""): Display(1.0, " N", 1, 1.0),
     ("torque", ""): Display(1.0, " N m", 2, 0.1),
+    ("unit_torque", ""): Display(1.0, " N unit", 2, 0.1),
     ("mass", ""): Display(1.0, " kg", 3, 0.1),
     ("inertia", ""): Display(1.0, " kg m²", 5, 0.001),
     ("energy", ""): Display(1.0, " J", 2, 1.0),
@@ -85,7 +86,12 @@ def acceleration_kind(robot: Robot, joint: int) -> Kind:
 
 def torque_kind(robot: Robot, joint: int) -> Kind:
     """A turning joint takes a torque, a sliding one a force."""
-    return "torque" if robot.joints[joint].revolute else "force"
+    return moment_kind(robot) if robot.joints[joint].revolute else "force"
+
+
+def moment_kind(robot: Robot) -> Kind:
+    """A force times a length of this arm."""
+    return "torque" if robot.length_unit == "millimetre" else "unit_torque"
 
 
 _SPEEDS: dict[Kind, Kind] = {"angle": "angle_speed", "length": "length_speed", "unit_length": "unit_speed"}

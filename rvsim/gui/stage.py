@@ -64,6 +64,11 @@ class Stage(QObject):
         """The scene's colours under the present theme."""
         return DARK if self._preferences["theme"] == "dark" else LIGHT
 
+    @property
+    def view(self) -> SceneView:
+        """Where the scene is shown."""
+        return self._view
+
     def show(self) -> None:
         """Compose the present moment and hand it to the view."""
         self._glide.stop()
