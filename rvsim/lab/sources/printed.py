@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-_NOTHING = 1e-9  # a divisor smaller than this is 0
+_NOTHING = 1e-6  # a divisor smaller than this is 0
 
 
 class Triangle(NamedTuple):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
+from rvsim.lab.sources import printed
 from rvsim.lab.worked.figures import Figures, wrapped
 
 Numbers = Mapping[str, float]
@@ -22,47 +23,40 @@ def _angle(figures: Figures, value: float) -> str:
 
 
 def _waist_000(figures: Figures, k: Numbers) -> str:
-    printed = _angle(figures, math.atan2(k["x"], k["y"]))
-    if printed == _angle(figures, k["psi"]):
+    waist = _angle(figures, printed.waist_000(k["x"], k["y"]))
+    if waist == _angle(figures, k["psi"]):
         return ""
     return (
-        f"Source 000, (10), prints atan2(x, −y), its y counted the other way round: {printed}. "
+        f"Source 000, (10), prints atan2(x, −y), its y counted the other way round: {waist}. "
         f"In the sense of the DH table it is {_angle(figures, k['psi'])}."
     )
 
 
 def _links_000(figures: Figures, k: Numbers) -> str:
     """θ2 of (14) and θ3 of (15), printed and right; the printed sign is the one that is right in the corrected form."""
-    a2, a3, alpha, beta = k["a2"], k["a3"], k["w"], k["u"]
-    square = alpha * alpha + beta * beta
-    right, printed = ((a2 * a2 - a3 * a3 + sign * square) / (2.0 * a2) for sign in (1.0, -1.0))
-    third = math.atan2(beta - a2 * math.cos(k["q2"]), alpha - a2 * math.sin(k["q2"])) - k["q2"]
-    root = square - printed * printed
-    text = (
-        f"Source 000, (14), prints γ = {figures.text(printed, 'length')}; right is {figures.text(right, 'length')}: "
-        "α² + β² is added. "
+    triangle = printed.Triangle(k["w"], k["u"], k["a2"], k["a3"])
+    gamma = printed.gamma_000(triangle)
+    second, third = printed.shoulder_000(triangle, k["q2"], gamma), printed.elbow_000(triangle, k["q2"])
+    return (
+        f"Source 000, (14), prints γ = {figures.text(gamma, 'length')}; "
+        f"right is {figures.text(printed.gamma(triangle), 'length')}: α² + β² is added. "
+        + _shoulder_000(figures, second, k["q2"])
+        + f"(15) has atan2's arguments exchanged: {_angle(figures, third)}, not {_angle(figures, k['q3'])}."
     )
-    if root >= 0.0:
-        sign = _sign_of(k["q2"], right, math.sqrt(max(square - right * right, 0.0)), math.atan2(beta, alpha))
-        second = math.atan2(printed, sign * math.sqrt(root)) - math.atan2(alpha, beta)
-        text += f"With its atan2(α, β) θ₂ would be {_angle(figures, second)}, not {_angle(figures, k['q2'])}. "
-    else:
-        text += "With it the root is not real. "
-    return text + f"(15) has atan2's arguments exchanged: {_angle(figures, third)}, not {_angle(figures, k['q3'])}."
 
 
-def _sign_of(q2: float, gamma: float, root: float, turn: float) -> float:
-    """Which sign of the root gives q2 in the corrected (14)."""
-    errors = {sign: abs(wrapped(math.atan2(gamma, sign * root) - turn - q2)) for sign in (1.0, -1.0)}
-    return min(errors, key=lambda sign: errors[sign])
+def _shoulder_000(figures: Figures, printed_q2: float, q2: float) -> str:
+    if math.isnan(printed_q2):
+        return "With it the root is not real. "
+    return f"With its atan2(α, β) θ₂ would be {_angle(figures, printed_q2)}, not {_angle(figures, q2)}. "
 
 
 def _pitch_000(figures: Figures, k: Numbers) -> str:
     fourth = k["phi"] - k["q2"] - k["q3"]
-    printed, right = _angle(figures, fourth), _angle(figures, fourth + 0.5 * math.pi)
+    wrist, right = _angle(figures, fourth), _angle(figures, fourth + 0.5 * math.pi)
     return (
         "Source 000, (16) and (17), call the sum φ but mean the DH angle, which is the joint's plus 90°: with the "
-        f"pitch as φ it would give {printed} where the DH angle is {right}."
+        f"pitch as φ it would give {wrist} where the DH angle is {right}."
     )
 
 
@@ -75,11 +69,11 @@ def _centre_001(figures: Figures, k: Numbers) -> str:
 
 def _wrist_004(figures: Figures, k: Numbers) -> str:
     c, s = math.cos(k["phi"]), math.sin(k["phi"])
-    printed = k["z"] - k["d1"] - k["d5"] * c
+    height = printed.wrist_height_004(k["z"], k["d1"], k["d5"], k["phi"])
     text = figures.text
     note = (
         f"Source 004, (3.26), prints d₅ cos ψ where d₅ sin ψ belongs (its ψ is our φ): the height would be "
-        f"{text(printed, 'length')}, not {text(k['z'] - k['d1'] - k['d5'] * s, 'length')}."
+        f"{text(height, 'length')}, not {text(k['z'] - k['d1'] - k['d5'] * s, 'length')}."
     )
     negative = " (here negative)" if k["rho"] ** 2 < k["d5"] * c else ""
     return f"{note} (3.29) draws the root over x² + y² − d₅ cos ψ{negative}; it ends before − d₅ cos ψ."
@@ -87,50 +81,45 @@ def _wrist_004(figures: Figures, k: Numbers) -> str:
 
 def _links_004(figures: Figures, k: Numbers) -> str:
     square = k["u"] ** 2 + k["w"] ** 2
-    s = math.sqrt(square)
-    top, bottom = square + k["a2"] ** 2 - k["a3"] ** 2, 2.0 * k["a2"] * s
-    beta = math.acos(max(-1.0, min(1.0, top / bottom)))
-    third = math.atan2(square - k["a2"] ** 2 - k["a3"] ** 2, 2.0 * k["a2"] * k["a3"])
-    printed = _angle(figures, math.atan2(top, bottom))
+    upper, fore = k["a2"], k["a3"]
+    ratio = (square + upper * upper - fore * fore) / (2.0 * upper * math.sqrt(square))
+    beta = math.acos(max(-1.0, min(1.0, ratio)))
+    third = printed.elbow_004(square, upper, fore)
     return (
-        f"Source 004, (3.22), prints β = atan2(s² + a₃² − a₄², 2a₃s) = {printed}; right is the arccos of their ratio, "
+        f"Source 004, (3.22), prints β = atan2(s² + a₃² − a₄², 2a₃s) = "
+        f"{_angle(figures, printed.beta_004(square, upper, fore))}; right is the arccos of their ratio, "
         f"{_angle(figures, beta)}. (3.23) in the same way prints θ₃ = {_angle(figures, third)}, "
         f"not {_angle(figures, k['q3'])}."
     )
 
 
 def _waist_003(figures: Figures, k: Numbers) -> str:
-    if not k["px"]:
-        return ""
-    printed = _angle(figures, math.atan(k["py"] / k["px"]))
-    if printed == _angle(figures, k["psi"]):
+    waist = printed.waist_003(k["px"], k["py"])
+    if math.isnan(waist) or _angle(figures, waist) == _angle(figures, k["psi"]):
         return ""
     return (
-        f"Source 003 prints θ₁ = arctan(Py/Px) = {printed}; it must be atan2(Py−l₂, Px−l₁) = "
+        f"Source 003 prints θ₁ = arctan(Py/Px) = {_angle(figures, waist)}; it must be atan2(Py−l₂, Px−l₁) = "
         f"{_angle(figures, k['psi'])}, as its program has it."
     )
 
 
 def _roll_003(figures: Figures, k: Numbers) -> str:
     """The program feeds θ1 in radians to cosd and sind."""
-    c, s = (f(math.radians(k["q1"])) for f in (math.cos, math.sin))
-    printed = _angle(figures, math.atan2(s * k["nx"] - c * k["ny"], s * k["ox"] - c * k["oy"]))
-    if printed == _angle(figures, k["q3"]):
+    roll = _angle(figures, printed.roll_003(k["q1"], printed.Hand(k["nx"], k["ny"], k["ox"], k["oy"])))
+    if roll == _angle(figures, k["q3"]):
         return ""
     return (
-        f"Source 003's program takes cosd and sind of a θ₁ in radians: its θ₃ would be {printed}, "
+        f"Source 003's program takes cosd and sind of a θ₁ in radians: its θ₃ would be {roll}, "
         f"not {_angle(figures, k['q3'])}."
     )
 
 
 def _extension_003(figures: Figures, k: Numbers) -> str:
-    c, s = math.cos(k["q2"]), math.sin(k["q2"])
-    if abs(c) < 1e-6:
+    extension = printed.extension_003(k["w"], k["q2"], k["a2"], k["d3"])
+    if math.isnan(extension):
         return "Source 003 divides by C₂, which is 0 here; along the tool axis nothing is divided."
-    printed = (k["w"] - k["a2"] * s) / c - k["d3"]
-    return (
-        f"Source 003 prints l₆ = (w − l₅S₂)/C₂ − l₇ = {figures.text(printed, 'length')}: right as long as C₂ is not 0."
-    )
+    value = figures.text(extension, "length")
+    return f"Source 003 prints l₆ = (w − l₅S₂)/C₂ − l₇ = {value}: right as long as C₂ is not 0."
 
 
 _NOTES: dict[tuple[str, str], Note] = {
