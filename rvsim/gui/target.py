@@ -26,6 +26,7 @@ from rvsim.gui.target_solution import (
     branch_at,
     followed,
     immediate_sentence,
+    landed,
     nearer,
     nearest_pose,
     offer_of,
@@ -188,13 +189,24 @@ class TargetControl(QObject):
         left_behind = self._wanted is not None
         answer = solve(self._question(np.asarray(wish.T), wish.task), hurried=wish.creeps)
         step = followed(answer, self._label if left_behind else "") if self.follows else None
-        far = step is None or (left_behind and step.branch.distance > _LEAP)
-        crept = nearer(answer, strides) if far and wish.creeps and self.follows else None
-        if step is not None and (crept is None or crept.settled):
+        if wish.creeps and self.follows and not _at_hand(step, left_behind):
+            self._creep(answer, step, wish, strides)
+        elif step is not None:
             self._arrive(answer, step, wish)
+        else:
+            self._miss(answer, wish, answer.question.q)
+
+    def _creep(self, answer: Answer, step: Step | None, wish: Wish, strides: int) -> None:
+        """A hand is followed without a jump: not over to another branch either."""
+        crept = nearer(answer, strides)
+        landing = landed(answer, crept.q) if crept.settled else None
+        if landing is None and crept.settled and step is not None and not step.changed_branch:
+            landing = step
+        if landing is not None:
+            self._arrive(answer, landing, wish)
             return
-        self._miss(answer, wish, answer.question.q if crept is None else crept.q)
-        if crept is not None and not crept.settled and strides == 1 and self._pending is None:
+        self._miss(answer, wish, crept.q)
+        if not crept.settled and strides == 1 and self._pending is None:
             self.request(wish)  # there is still some way to go
 
     def take_back(self, experiment: Experiment, text: str, merge: str) -> None:
@@ -259,6 +271,8 @@ class TargetControl(QObject):
         """The arm stays, or goes to q (n,) as near as it can; the target goes without it."""
         self.T = self._wanted = wish.T
         self._show(seen_from(answer, q), q)
+        if wish.creeps and self.follows and not answer.missed:
+            self.sentence = f"{self._ended(answer, self._label)} Others go on: choose one in the table."
         self.changed.emit()
         self._put(replace(self.session.experiment, q=q, target=wish.T), wish.text, wish.merge)
 
@@ -270,9 +284,12 @@ class TargetControl(QObject):
             self.changed.emit()
 
     def _changed_branch(self, answer: Answer, before: str) -> str:
+        return f"{self._ended(answer, before)} The arm went over to “{self._label}”."
+
+    def _ended(self, answer: Answer, before: str) -> str:
         old = [branch for branch in answer.branches if branch.label == before]
-        where = f": {limit_words(answer.question.robot, old[0], self._preferences)}" if old else ""
-        return f"The branch “{before}” ends here{where}. The arm went over to “{self._label}”."
+        words = limit_words(answer.question.robot, old[0], self._preferences) if old else ""
+        return f"The branch “{before}” ends here{words and f': {words}'}."
 
     def _go(self, q: ArrayLike, text: str) -> None:
         experiment = self.session.experiment
@@ -366,3 +383,8 @@ class TargetControl(QObject):
     def _on_preference(self, name: str) -> None:
         if name in ("branch_order", "arm_follows", "angle_unit", "length_unit"):
             self._solve_again()
+
+
+def _at_hand(step: Step | None, left_behind: bool) -> bool:
+    """Whether the arm can go there at once, and nobody who looks will call it a jump."""
+    return step is not None and not step.changed_branch and not (left_behind and step.branch.distance > _LEAP)

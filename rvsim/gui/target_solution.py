@@ -52,6 +52,7 @@ TASK_TITLES = {
 _KEPT = {"position, wrist kept": (3, 4)}  # the joints that a task leaves as they are
 _PLACES = ("position", "position, wrist kept", "x,y")  # tasks that leave the whole orientation open
 _CREEPING_STEPS = 8  # of Newton's method, a tenth of a millisecond each
+_LANDED = 0.02  # [rad, m] what creeping leaves of the way to a branch: it goes slowly where it is singular
 _HERE = 1e-9  # [rad, m] a branch so close is where the arm is
 
 
@@ -217,6 +218,12 @@ def nearer(answer: Answer, times: int = 1) -> Crept:
         if crept.settled:
             break
     return crept
+
+
+def landed(answer: Answer, q: FloatArray) -> Step | None:
+    """The branch on which an arm that crept to q (n,) has come to the target after all; None if it has not."""
+    near = [branch for branch in answer.usable if float(np.abs(branch.q - q).max()) < _LANDED]
+    return Step(near[0], False) if near else None
 
 
 def _allowed(question: Question) -> FloatArray:

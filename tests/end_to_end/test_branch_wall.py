@@ -15,6 +15,7 @@ from rvsim.gui.app import build_window
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.panels.inverse_table import NAME_ROLE
 from rvsim.gui.preferences import Preferences
+from rvsim.gui.target import Wish
 from rvsim.kinematics import forward_kinematics
 from rvsim.scene import Labels
 from rvsim.scene.gizmo import Handle
@@ -229,7 +230,7 @@ def test_the_wall_shows_every_branch_and_the_table_lights_one(qtbot, window_of) 
     assert not window.actions_by_name["drag_tool"].isChecked()
 
 
-def test_an_unreachable_drag_stops_the_arm_and_says_why_and_the_nearest_can_be_had(qtbot, window_of) -> None:
+def test_an_unreachable_drag_says_why_when_it_ends_and_the_nearest_can_be_had(qtbot, window_of) -> None:
     window = window_of("rv-m1")
     followed = drag(qtbot, window, "axis z", (0, -330), steps=33)
     sentence = window.findChild(QLabel, "why_not_sentence")
@@ -247,6 +248,44 @@ def test_an_unreachable_drag_stops_the_arm_and_says_why_and_the_nearest_can_be_h
     assert not accept.isVisible()
     window.session.undo_stack.undo()
     assert accept.isVisible()
+
+
+def test_beyond_its_reach_the_arm_creeps_along_the_edge_and_comes_back_on_its_own_branch(qtbot, window_of) -> None:
+    window = window_of("ur5e")
+    q, count, begin = window.session.q, window.session.undo_stack.count(), tool(window)
+    shown = [q]
+    window.session.changed.connect(lambda _, after: shown.append(after.q))
+    drag(qtbot, window, "axis x", (-420, 330), steps=60)
+    assert window.target.answer.missed
+    assert abs(window.target.T[0, 3] - begin[0, 3]) > 0.3
+    assert np.abs(np.diff(shown, axis=0)).max() < 0.3
+    assert np.linalg.norm(tool(window)[:3, 3] - window.target.T[:3, 3]) < np.linalg.norm(
+        begin[:3, 3] - window.target.T[:3, 3]
+    )
+    qtbot.waitUntil(lambda: window.target.nearest is not None)
+    away = np.linalg.norm(tool(window)[:3, 3] - window.target.T[:3, 3])
+    assert away == pytest.approx(window.target.nearest.position_error, abs=1e-3)
+    assert window.session.undo_stack.count() == count + 1
+    window.target.request(Wish(begin, "Drag the tool", "back", creeps=True))
+    window.target.settle()
+    np.testing.assert_allclose(window.session.q, q, atol=1e-6)
+    window.session.undo_stack.undo()
+    window.session.undo_stack.undo()
+    np.testing.assert_array_equal(window.session.q, q)
+
+
+def test_escape_brings_a_creeping_arm_back_as_if_nothing_had_been(qtbot, window_of) -> None:
+    window = window_of("rv-m1")
+    q, count, start = window.session.q, window.session.undo_stack.count(), place_of(window, "axis z")
+    qtbot.mousePress(window.scene_view, LEFT, NONE, start.toPoint())
+    for pixels in range(0, 330, 30):
+        move(window, start - QPointF(0, pixels))
+        qtbot.waitUntil(lambda: window.target._pending is None)
+    assert window.session.experiment.target is not None
+    qtbot.keyClick(window.scene_view, Qt.Key.Key_Escape)
+    np.testing.assert_array_equal(window.session.q, q)
+    assert window.session.experiment.target is None
+    assert window.session.undo_stack.count() == count
 
 
 def test_sliders_and_other_arms_take_the_target_along(window_of) -> None:
