@@ -425,6 +425,14 @@ def _write(file: str, text: str) -> None:
     write_atomically(Path(file), text.encode())
 
 
+def _reproduce(options: argparse.Namespace) -> int:
+    from rvsim.lab.sources.reproduce import reproduce, reproduction_text
+
+    rows = reproduce()
+    _print(options, [row._asdict() for row in rows], reproduction_text(rows))
+    return DONE
+
+
 _COMMANDS: tuple[
     tuple[str, Callable[[argparse.Namespace], int], str, Callable[[argparse.ArgumentParser], None]], ...
 ] = (
@@ -433,4 +441,5 @@ _COMMANDS: tuple[
     ("jacobian", _jacobian, "how the tool moves with the joints", _add_arm_and_joints),
     ("ik", _ik, "which joints bring the tool to a pose", _add_pose_options),
     ("track", _track, "follow a path", _add_track_options),
+    ("reproduce", _reproduce, "work the numbers of the sources out once more", _no_options),
 )

@@ -106,7 +106,7 @@ def printed_target_error(_robot: Robot, _q: FloatArray) -> float:
     return float(np.abs(ELLIPSE_PRINTED_ROTATION.T @ ELLIPSE_PRINTED_ROTATION - np.eye(3)).max())
 
 
-def _spacing(_robot: Robot, _q: FloatArray) -> FloatArray:
+def spacing(_robot: Robot, _q: FloatArray) -> FloatArray:
     """(2,) the smallest and the largest distance of neighbours on the ellipse [m]."""
     gaps = np.linalg.norm(np.diff(ellipse(), axis=0), axis=1)
     return np.array([gaps.min(), gaps.max()])
@@ -128,7 +128,8 @@ def tilts(robot: Robot) -> FloatArray:
     return np.asarray(np.arccos(np.clip(axis @ ELLIPSE_PRINTED_ROTATION[:, 2], -1.0, 1.0)))
 
 
-def _tilt_range(robot: Robot, _q: FloatArray) -> FloatArray:
+def tilt_range(robot: Robot, _q: FloatArray) -> FloatArray:
+    """(2,) the least and the largest of them [rad]."""
     found = tilts(robot)
     return np.array([found.min(), found.max()])
 
@@ -213,7 +214,7 @@ _PROGRAM = (
         (r"n = \lceil 2\pi a / 1.2 \rceil,\quad \theta_k = \frac{2\pi k}{n - 1}",),
         (r"\Delta s = \sqrt{a^2 \sin^2\theta + b^2 \cos^2\theta}\; \Delta\theta",),
         "The angle is divided evenly, which divides a circle evenly, not an ellipse.",
-        _POSE, "length", lambda _robot, _q: np.full(2, _INTERVAL), _spacing, rows=("least", "most"),
+        _POSE, "length", lambda _robot, _q: np.full(2, _INTERVAL), spacing, rows=("least", "most"),
     ),
     Erratum(
         "002-ik", "002", "Code 2, Newton_Raphson", "ur5e", "path", "A desired orientation that is never used",
@@ -221,7 +222,7 @@ _PROGRAM = (
         (r"\Delta\theta = J^{+} \begin{bmatrix} p_{desired} - p \\ \omega(R_{desired} R^T) \end{bmatrix}",),
         "Only the position is solved for; even with the right formulas the tool's axis ends far from the desired one. "
         "Shown: the least and the largest angle between them along the ellipse.",
-        _POSE, "angle", lambda _robot, _q: np.zeros(2), _tilt_range, rows=("least", "most"),
+        _POSE, "angle", lambda _robot, _q: np.zeros(2), tilt_range, rows=("least", "most"),
     ),
     Erratum(
         "002-rms", "002", "The whole program", "ur5e", "path", "An arm that draws its ellipse elsewhere",

@@ -23,10 +23,10 @@ def waist(robot: Robot, q: FloatArray) -> float:
 
 
 def roll(robot: Robot, q: FloatArray) -> float:
-    """θ3 of the program for the tool's rotation."""
+    """θ3 of the program for the tool's rotation; its θ1 comes from atan2, within ±π."""
     n, o = forward_kinematics(robot, q)[:3, :2].T
     hand = printed.Hand(float(n[0]), float(n[1]), float(o[0]), float(o[1]))
-    return printed.roll_003(float(q[0]), hand)
+    return printed.roll_003(math.remainder(float(q[0]), math.tau), hand)
 
 
 def extension(robot: Robot, q: FloatArray) -> float:
@@ -40,13 +40,18 @@ def _fixed(robot: Robot) -> float:
     return float(robot.dh[3, 1])
 
 
-def fifteen(robot: Robot, q: FloatArray) -> FloatArray:
-    """(3,) xactual, yactual, zactual of the program, its 15 read as the number it is."""
+def program_place(robot: Robot, q: FloatArray, l5: float) -> FloatArray:
+    """(3,) xactual, yactual, zactual of the program with this l5."""
     l7 = float(robot.dh[2, 1]) + _fixed(robot)
-    lift = robot.T_base_0[:3, 3] + np.array([0.0, 0.0, robot.dh[0, 1]])
+    base = robot.T_base_0[:3, 3] + np.array([0.0, 0.0, robot.dh[0, 1]])
     c2, s2, out = math.cos(q[1]), math.sin(q[1]), float(q[3]) + l7
-    level = 15.0 * c2 - s2 * out
-    return np.asarray(lift + np.array([level * math.cos(q[0]), level * math.sin(q[0]), c2 * out + 15.0 * s2]))
+    level = l5 * c2 - s2 * out
+    return np.asarray(base + np.array([level * math.cos(q[0]), level * math.sin(q[0]), c2 * out + l5 * s2]))
+
+
+def fifteen(robot: Robot, q: FloatArray) -> FloatArray:
+    """(3,) the same with 15 in place of l5, as printed."""
+    return program_place(robot, q, 15.0)
 
 
 ERRATA_003 = (

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from rvsim.dynamics import joint_torques, wrench_in_base
 from rvsim.kinematics import forward_kinematics, jacobian, link_transforms
 from rvsim.lab.sources.arms import degrees
 from rvsim.lab.sources.erratum import Erratum
@@ -76,8 +77,7 @@ def torques_4_24(robot: Robot, q: FloatArray) -> FloatArray:
 
 
 def _torques(robot: Robot, q: FloatArray) -> FloatArray:
-    R = forward_kinematics(robot, q)[:3, :3]
-    return np.asarray(jacobian(robot, q).T @ np.concatenate([R @ _FORCE[:3], R @ _FORCE[3:]]))
+    return joint_torques(robot, q, wrench_in_base(robot, q, _FORCE))
 
 
 def quintic_rows(t0: float, tf: float, *, as_printed: bool) -> FloatArray:
