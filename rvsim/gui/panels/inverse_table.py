@@ -1,24 +1,31 @@
-"""The table of branches: one row each, with its joints, its verdict, and how good and how far it is."""
+"""The table of branches: one row each, with its name, its joints, and the limit that it breaks.
+
+The model knows the whole verdict; the view shows what has room beside the scene. The rest is in the tip and in the
+line below the table, and the header's menu sorts by it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from PySide6.QtCore import QAbstractTableModel, QEvent, QModelIndex, QSortFilterProxyModel, Qt, Signal
-from PySide6.QtGui import QFont, QFontMetrics, QGuiApplication, QKeyEvent, QPainter, QPalette
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QHeaderView,
-    QStyle,
-    QStyledItemDelegate,
-    QStyleOptionViewItem,
-    QTableView,
-    QWidget,
+from PySide6.QtCore import QAbstractTableModel, QEvent, QModelIndex, QRect, QSortFilterProxyModel, Qt, Signal
+from PySide6.QtGui import (
+    QAction,
+    QFontMetrics,
+    QGuiApplication,
+    QKeyEvent,
+    QPainter,
+    QPaintEvent,
+    QPalette,
+    QResizeEvent,
 )
+from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
 from rvsim.gui.branch_words import circled, limit_words, margin_words, worst_limit_words
+from rvsim.gui.panels.inverse_rows import PAD, GroundDelegate, RowInk, RowText, row_color
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import (
@@ -34,18 +41,10 @@ from rvsim.robot import Robot
 
 SORT_ROLE = Qt.ItemDataRole.UserRole
 NAME_ROLE = Qt.ItemDataRole.UserRole + 1
-CELL_ROLE = Qt.ItemDataRole.UserRole + 2  # all that a number is painted with, in one question
 _TOP = QModelIndex()
 _HERE = 1e-6  # [rad, m] a branch so close is where the arm is
-# Texts as long as any that comes, so that columns stand still; a title may take two lines.
-_WIDEST = {
-    "branch": "shoulder stops at 100.0°",
-    "limits": "shoulder −156.7° stops at",
-    "residual": "8.8e−88",
-    "margin": "−888.8°",
-    "moves": "−888.8°",
-}
-_WIDEST_TITLE = "wrist no-flip, elbow up"
+_HEAD_PADDING = 13  # of the style sheet, both sides together
+_SORT = "Click to sort; the menu of the right button sorts by more"
 _CONTINUUM = "One of infinitely many: a joint may take any value here."
 
 
@@ -63,21 +62,17 @@ class Row(NamedTuple):
         return self.branch.distance < _HERE
 
 
-class _Cell(NamedTuple):
-    """A number as it is painted."""
-
-    text: str
-    usable: bool
-    here: bool
-
-
 class Column(NamedTuple):
-    """A column: its head, its tip, the text of a row and the number by which rows are sorted."""
+    """A column: its head, its tip, the text of a row and the number by which rows are sorted.
+
+    `widest` is a text as long as any that comes, so that columns stand still; none in a column that is not shown.
+    """
 
     head: str
     tip: str
     text: Callable[[Row], str]
     value: Callable[[Row], float | str]
+    widest: str = ""
     left: bool = False
 
 
@@ -88,7 +83,7 @@ def columns_of(robot: Robot, preferences: Preferences) -> tuple[Column, ...]:
         stop = "" if row.branch.within_limits else f"\n{worst_limit_words(robot, row.branch, preferences)}"
         return _title(row) + stop
 
-    first = Column("branch", "The branch, in the field's words", branch, lambda row: row.name, left=True)
+    first = Column("#", f"The number of the branch, as in the scene. {_SORT}", branch, lambda row: row.name, "⑧")
     joints = (_joint_column(robot, joint, preferences) for joint in range(robot.dof))
     return (first, *joints, *_verdict_columns(robot, preferences))
 
@@ -102,9 +97,10 @@ def _joint_column(robot: Robot, joint: int, preferences: Preferences) -> Column:
     shown = display(joint_kind(robot, joint), preferences)
     return Column(
         f"J{joint + 1} {shown.suffix.strip()}",
-        f"{robot.joint_names[joint]} [{shown.suffix.strip()}]",
+        f"{robot.joint_names[joint]} [{shown.suffix.strip()}]. {_SORT}",
         lambda row: format_number(float(row.branch.q[joint]) * shown.factor, shown.decimals),
         lambda row: float(row.branch.q[joint]),
+        format_number(-888.8 if shown.factor > 1.0 else -8.8888, shown.decimals),
     )
 
 
@@ -163,7 +159,9 @@ def _looks(row: Row) -> tuple[object, ...]:
 
 
 class BranchModel(QAbstractTableModel):
-    """Rows of branches, best first."""
+    """Rows of branches, best first. `columns_changed()`: another arm, or other units."""
+
+    columns_changed = Signal()
 
     def __init__(self, robot: Robot, preferences: Preferences, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -178,6 +176,7 @@ class BranchModel(QAbstractTableModel):
         self._robot, self.rows = robot, ()
         self.columns = columns_of(robot, self._preferences)
         self.endResetModel()
+        self.columns_changed.emit()
 
     def show_rows(self, rows: tuple[Row, ...]) -> None:
         """Show other branches of the same arm."""
@@ -192,6 +191,11 @@ class BranchModel(QAbstractTableModel):
             first = int(all(_looks(old) == _looks(new) for old, new in zip(before, rows, strict=True)))
             self.dataChanged.emit(self.index(0, first), self.index(len(rows) - 1, len(self.columns) - 1))
 
+    @property
+    def joints(self) -> int:
+        """How many columns of joints there are."""
+        return self._robot.dof
+
     def rowCount(self, parent: Index = _TOP) -> int:
         """The number of branches."""
         return 0 if parent.isValid() else len(self.rows)
@@ -205,8 +209,6 @@ class BranchModel(QAbstractTableModel):
         row, column = self.rows[index.row()], self.columns[index.column()]
         if role == Qt.ItemDataRole.DisplayRole:
             return column.text(row)
-        if role == CELL_ROLE:
-            return _Cell(column.text(row), row.usable, row.here)
         if role == SORT_ROLE:
             return column.value(row)
         if role == NAME_ROLE:
@@ -216,7 +218,7 @@ class BranchModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.ForegroundRole and not row.usable:
             return QGuiApplication.palette().brush(QPalette.ColorRole.PlaceholderText)
         if role == Qt.ItemDataRole.FontRole and row.here:
-            return _bold()
+            return RowInk().bold
         if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleTextRole):
             return self._words(row)
         return None
@@ -231,6 +233,13 @@ class BranchModel(QAbstractTableModel):
         parts = (f"{_title(row)}: {limits}", here, f"w = {branch.manipulability:.4f}")
         endless = f" {_CONTINUUM}" if branch.continuum else ""
         return f"{', '.join(parts)}, residual {format_scientific(branch.residual)}.{endless} {row.note}".rstrip()
+
+    def text_of(self, row: Row) -> RowText:
+        """What is written in a row that is seen."""
+        endless = " ∞" if row.branch.continuum else ""
+        stop = "" if row.branch.within_limits else worst_limit_words(self._robot, row.branch, self._preferences)
+        numbers = tuple(column.text(row) for column in self.columns[1 : 1 + self._robot.dof])
+        return RowText(circled(row.name), row.branch.label + endless, stop, numbers, row.usable, row.here)
 
     def words_of(self, name: str | None) -> str:
         """The whole verdict of the branch of that name, or of the only row; nothing if there is no such branch."""
@@ -247,29 +256,6 @@ class BranchModel(QAbstractTableModel):
         return {Qt.ItemDataRole.DisplayRole: column.head, Qt.ItemDataRole.ToolTipRole: column.tip}.get(
             Qt.ItemDataRole(role)
         )
-
-
-def _bold() -> QFont:
-    font = QFont(QGuiApplication.font())
-    font.setWeight(QFont.Weight.DemiBold)
-    return font
-
-
-class _NumberDelegate(QStyledItemDelegate):
-    """Paints a number as text alone: the style sheet's way takes ten times as long."""
-
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
-        """The text at the right, on the ground of the selection where it is."""
-        view: Any = option  # its fields are known to no type checker
-        chosen = bool(view.state & QStyle.StateFlag.State_Selected)
-        if chosen:
-            painter.fillRect(view.rect, view.palette.highlight())
-        cell: _Cell = index.data(CELL_ROLE)
-        roles = QPalette.ColorRole
-        usual = roles.Text if cell.usable else roles.PlaceholderText
-        painter.setPen(view.palette.color(roles.HighlightedText if chosen else usual))
-        painter.setFont(_bold() if cell.here else view.font)
-        painter.drawText(view.rect.adjusted(4, 0, -5, 0), RIGHT, cell.text)
 
 
 class BranchTable(QTableView):
@@ -293,7 +279,8 @@ class BranchTable(QTableView):
         self._sorted.setSortRole(SORT_ROLE)
         self.setModel(self._sorted)
         self._dress()
-        self._texts, self._numbers = QStyledItemDelegate(self), _NumberDelegate(self)
+        self.setItemDelegate(GroundDelegate(self))
+        self._ink = RowInk()
         self.setSortingEnabled(True)
         self.horizontalHeader().setSortIndicatorClearable(True)
         self.sortByColumn(-1, Qt.SortOrder.AscendingOrder)
@@ -302,6 +289,7 @@ class BranchTable(QTableView):
         self.clicked.connect(self._choose)
         self.selectionModel().currentChanged.connect(lambda index, _: self.lit.emit(index.data(NAME_ROLE)))
         model.modelReset.connect(self.fit_columns)
+        model.columns_changed.connect(self._offer_orders)
         model.dataChanged.connect(lambda start, *_: self._fit_rows() if start.column() == 0 else None)
 
     def _dress(self) -> None:
@@ -316,30 +304,70 @@ class BranchTable(QTableView):
         self.verticalHeader().hide()
         self.verticalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         self.horizontalHeader().setHighlightSections(False)
-        self.horizontalHeader().setMinimumSectionSize(24)
+        self.horizontalHeader().setMinimumSectionSize(8)
+        self.horizontalHeader().setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
 
     def fit_columns(self) -> None:
-        """Widths for the longest text that can come, so that nothing jumps while the arm moves."""
-        metrics = text_metrics()
-        for index, column in enumerate(self.branches.columns):
-            widest = _WIDEST.get(column.head, "−888.8")
-            width = max(metrics.horizontalAdvance(text) for text in (widest, f"{column.head} ▾"))
-            # The row where the arm stands is bold.
-            bold = _WIDEST_TITLE if index == 0 else widest
-            width = max(width, QFontMetrics(_bold()).horizontalAdvance(bold) + 2)
-            self.setColumnWidth(index, width + 8)
-            self.setItemDelegateForColumn(index, self._texts if column.left else self._numbers)
+        """Joints in equal columns over the whole width: narrow, they are written smaller before they scroll."""
+        columns = self.branches.columns
+        shown = [index for index, column in enumerate(columns) if column.widest]
+        for index in range(len(columns)):
+            self.setColumnHidden(index, index not in shown)
+        joints, widest = shown[1:], max((columns[index].widest for index in shown[1:]), key=len)
+        name = text_metrics().horizontalAdvance("#") + _HEAD_PADDING
+        room = (self.viewport().width() - name) // len(joints)
+        self._ink = RowInk(widest, room - PAD - 1)
+        least = QFontMetrics(self._ink.small).horizontalAdvance(widest) + PAD + 1
+        bar = Qt.ScrollBarPolicy.ScrollBarAsNeeded if least > room else Qt.ScrollBarPolicy.ScrollBarAlwaysOff
+        self.setHorizontalScrollBarPolicy(bar)
+        for index in shown:
+            self.setColumnWidth(index, max(room, least) if index in joints else name)
         self._fit_rows()
 
     def _fit_rows(self) -> None:
-        """High enough for a branch on two lines, where it needs them, and for the limit that it breaks."""
-        metrics, room = QFontMetrics(_bold()), self.columnWidth(0) - 12
-        titles = [metrics.horizontalAdvance(_title(row)) for row in self.branches.rows]
-        lines = 1 + any(width > room for width in titles)
-        lines += any(not row.branch.within_limits for row in self.branches.rows)
-        height = max(lines, 2) * metrics.height() + 6
+        """High enough for the title and the joints, and for a limit that has no room beside the title."""
+        room = self.viewport().width() - self.columnWidth(0) - PAD
+        texts = map(self.branches.text_of, self.branches.rows)
+        lines = 2 if all(self._ink.fits_beside(text, room) for text in texts) else 3
+        height = lines * self._ink.line + 6
         if height != self.verticalHeader().defaultSectionSize():
             self.verticalHeader().setDefaultSectionSize(height)
+
+    def _offer_orders(self) -> None:
+        """The header's menu sorts by what is shown and by what is not."""
+        header = self.horizontalHeader()
+        for action in header.actions():
+            action.deleteLater()
+        heads = {-1: "Best first"} | {i: f"Sort by {column.head}" for i, column in enumerate(self.branches.columns)}
+        for index, text in heads.items():
+            action = QAction(text, header)
+            action.triggered.connect(partial(self._sort, index))
+            header.addAction(action)
+
+    def _sort(self, column: int, _checked: bool = False) -> None:
+        self.sortByColumn(column, Qt.SortOrder.AscendingOrder)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """The grounds, and the texts of the rows that are seen upon them."""
+        super().paintEvent(event)
+        if not self.branches.rows:
+            return
+        painter, seen = QPainter(self.viewport()), event.rect()
+        width = self.viewport().width()
+        ends = [self.columnViewportPosition(i) + self.columnWidth(i) for i in range(1 + self.branches.joints)]
+        chosen = {index.row() for index in self.selectionModel().selectedRows()}
+        for row in range(len(self.branches.rows)):
+            rect = QRect(0, self.rowViewportPosition(row), width, self.rowHeight(row))
+            if rect.intersects(seen):
+                source = self._sorted.mapToSource(self._sorted.index(row, 0)).row()
+                text = self.branches.text_of(self.branches.rows[source])
+                painter.setPen(row_color(self.palette(), usable=text.usable, chosen=row in chosen))
+                self._ink.paint(painter, rect, ends, text)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Another width: other columns."""
+        super().resizeEvent(event)
+        self.fit_columns()
 
     def _choose(self, index: QModelIndex) -> None:
         if index.isValid():

@@ -77,6 +77,30 @@ def test_the_table_lists_every_branch_with_its_joints_and_verdict(panel_of) -> N
     assert all("e" in row[column(panel, "residual")] for row in listed)
 
 
+@pytest.mark.parametrize("name", ["ur5e", "rv-m1", "scara", "rrrp"])
+@pytest.mark.parametrize("units", [("deg", "mm"), ("rad", "m")])
+def test_every_joint_is_seen_without_scrolling_sideways(qtbot, preferences, panel_of, name, units) -> None:
+    panel = panel_of(name)
+    for setting, unit in zip(("angle_unit", "length_unit"), units, strict=True):
+        preferences.set(setting, unit)
+    header = table(panel).horizontalHeader()
+    for width in (336, 372, 800):
+        panel.resize(width, 480)
+        qtbot.waitUntil(lambda: header.length() <= table(panel).viewport().width() < header.length() + 8)
+        assert not table(panel).horizontalScrollBar().isVisible()
+        assert min(map(header.sectionSize, range(1, panel.session.robot.dof + 1))) > 40
+
+
+def test_the_header_sorts_by_what_has_no_column_as_well(panel_of) -> None:
+    panel = panel_of("ur5e", UR5E)
+    action = next(a for a in table(panel).horizontalHeader().actions() if a.text() == "Sort by w")
+    action.trigger()
+    at = column(panel, "w")
+    numbers = [table(panel).model().index(row, at).data(SORT_ROLE) for row in range(8)]
+    assert numbers == sorted(numbers)
+    assert table(panel).isColumnHidden(at)
+
+
 def test_the_table_can_be_sorted_by_the_numbers_behind_its_texts(panel_of) -> None:
     panel = panel_of("ur5e", UR5E)
     by_preference = rows(panel)
