@@ -44,6 +44,7 @@ SWITCHES: dict[str, Switch] = {
     "show_labels": Switch("show_labels", True, False),
     "show_floor": Switch("show_floor", True, False),
     "show_trail": Switch("show_trail", True, False),
+    "show_plots": Switch("show_plots", True, False),
     "orthographic": Switch("orthographic", True, False),
     "dark": Switch("theme", "dark", "light"),
     "presentation": Switch("presentation", True, False),
@@ -54,12 +55,13 @@ SWITCHES: dict[str, Switch] = {
 }
 
 _QUICK_START = """<h3>The first minute</h3>
-<p>Drag a slider on the left: the joint turns and the read-out in the panel <b>Tool</b> follows.
+<p>Drag a slider on the left: the joint turns and the read-out in the panel <b>Model › Tool</b> follows.
 Type a value, or an expression such as <code>90/4</code>, <code>2*30</code> or <code>pi/4 rad</code>.</p>
 <p>Press <b>Track line</b>: the tool moves from start to end, and <b>Result</b> says how many points were reached,
 how exactly, and which joint stands in the way of the others.</p>
 <p>Choose a letter under <b>Trajectory</b> and press <b>Track trajectory</b>.
-Change the arm itself in the panel <b>DH table</b>: it follows at once, on a copy of your own.</p>
+Change the arm itself under <b>Model › DH table</b>: it follows at once, on a copy of your own.</p>
+<p>Switch <b>Plots</b> on: click or drag in a curve, and arm, path and time follow.</p>
 <p>In the scene: drag to turn, right-drag to move, wheel to zoom, double-click to centre.</p>"""
 
 

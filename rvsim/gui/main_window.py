@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QByteArray, QElapsedTimer, QEvent, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent, QStatusTipEvent
-from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QMenu, QToolBar, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QMenu, QSplitter, QToolBar, QWidget
 
 from rvsim.experiment import Experiment
 from rvsim.files import find_user_folder
@@ -26,6 +26,7 @@ from rvsim.gui.panels.path import PathPanel
 from rvsim.gui.panels.points import PointsPanel
 from rvsim.gui.panels.tool import ToolPanel
 from rvsim.gui.player_bar import PlayerBar
+from rvsim.gui.plots.panel import PlotsPanel
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.renderers.choose import Choice, renderer_factory
 from rvsim.gui.robot_library import RobotLibrary
@@ -40,9 +41,10 @@ from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import ElidedLabel, column_of
 
 _TOOLBAR = ("home", "zero", "|", "undo", "redo", "|", "view_iso", "view_top", "view_front", "view_side", "fit",
-            "box_zoom", "|", "look_stick", "look_solid", "look_both", "show_frames", "|", "dark")  # fmt: skip
+            "|", "look_stick", "look_solid", "look_both", "show_frames", "|",
+            "show_plots", "dark")  # fmt: skip
 _TOOLBAR_TEXTS = {
-    "home": "⌂ Home", "zero": "0 Zero", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": "Iso", "box_zoom": "Box zoom",
+    "home": "⌂ Home", "zero": "0 Zero", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": "Iso",
     "look_stick": "Stick", "look_both": "Both", "dark": "◐ Dark",
 }  # fmt: skip
 _TELL_MS = 250
@@ -86,8 +88,17 @@ class MainWindow(QMainWindow):
     # --- assembly --------------------------------------------------------------------------------------------------
 
     def _make_center(self) -> None:
+        self.plots = PlotsPanel(self.session, self.motion, self.preferences)
+        self.plots.setVisible(self.preferences["show_plots"])
+        parts = QSplitter(Qt.Orientation.Vertical)
+        parts.setObjectName("center_splitter")
+        parts.setChildrenCollapsible(False)
+        parts.addWidget(self.scene_view)
+        parts.addWidget(self.plots)
+        parts.setStretchFactor(0, 3)
+        parts.setStretchFactor(1, 2)
         center = QWidget()
-        column_of(center, self.scene_view, self.player_bar)
+        column_of(center, parts, self.player_bar)
         self.setCentralWidget(center)
 
     def _make_docks(self) -> None:
@@ -236,6 +247,9 @@ class MainWindow(QMainWindow):
     def _on_preference(self, name: str) -> None:
         if name in ("theme", "presentation"):
             wear_theme(self.preferences)
+        if name == "show_plots":
+            self.plots.setVisible(self.preferences["show_plots"])
+            self.plots.give_room()
         if name == "presentation":
             QTimer.singleShot(0, self, self._size_docks)
 

@@ -33,6 +33,8 @@ SETTINGS: dict[str, Setting] = {
     "all_ghosts": Setting(True),
     "branch_order": Setting("within limits, least motion, largest margin"),
     "presentation": Setting(False),
+    "show_plots": Setting(False),
+    "plots": Setting("q,qd,deviation"),
     "renderer": Setting("auto", ("auto", "gl", "painter")),
     "robot": Setting("rv-m1"),
     "speed": Setting(1.0, (0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0)),

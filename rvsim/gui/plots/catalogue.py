@@ -1,0 +1,158 @@
+"""What can be plotted of a motion: each entry makes its curves, its unit and its limits from `Curves`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import Kind, display, joint_kind, length_kind
+from rvsim.playback.curves import Curves
+from rvsim.robot.arrays import FloatArray
+
+_AXIS_COLORS = ("#D55E00", "#009E73", "#0072B2")
+_TOOL_COLOR, _WANTED_COLOR = "#0072B2", "#888888"
+NEAR_SINGULAR = 0.02  # σ below it is marked
+
+
+class Line(NamedTuple):
+    """One curve in shown units: its name, "#rrggbb", values (m,), and whether it is dashed."""
+
+    name: str
+    color: str
+    values: FloatArray
+    dashed: bool = False
+
+
+class Band(NamedTuple):
+    """What a curve of this colour must stay within, in shown units; infinite where there is no limit."""
+
+    color: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """One plot: title, unit, curves, and limits; `empty` says why there are none."""
+
+    title: str
+    unit: str
+    lines: tuple[Line, ...] = ()
+    bands: tuple[Band, ...] = ()
+    empty: str = ""
+
+
+class PlotKind(NamedTuple):
+    """An entry of the catalogue: its name, its sign on the button, what it shows, and what draws it."""
+
+    name: str
+    sign: str
+    tip: str
+    draw: Callable[[Curves, Preferences], Drawing]
+
+
+def _joint_lines(curves: Curves, values: FloatArray, factors: list[float]) -> tuple[Line, ...]:
+    return tuple(
+        Line(f"J{i + 1} {joint.name}", joint.color, values[:, i] * factors[i])
+        for i, joint in enumerate(curves.robot.joints)
+    )
+
+
+def _per_joint(curves: Curves, preferences: Preferences) -> tuple[list[float], str]:
+    """The factor of each joint, and the unit of the axis: both, where the arm turns and slides."""
+    shown = [display(joint_kind(curves.robot, i), preferences) for i in range(curves.robot.dof)]
+    return [each.factor for each in shown], ", ".join(dict.fromkeys(each.suffix.strip() for each in shown))
+
+
+def _over(unit: str, below: str) -> str:
+    return ", ".join(f"{part}{below}" for part in unit.split(", "))
+
+
+def _joints(curves: Curves, preferences: Preferences) -> Drawing:
+    factors, unit = _per_joint(curves, preferences)
+    bands = tuple(
+        Band(joint.color, joint.lower * factor, joint.upper * factor)
+        for joint, factor in zip(curves.robot.joints, factors, strict=True)
+    )
+    return Drawing("Joints q", unit, _joint_lines(curves, curves.q, factors), bands)
+
+
+def _rates(title: str, order: str, below: str, limit: str = "") -> Callable[[Curves, Preferences], Drawing]:
+    def draw(curves: Curves, preferences: Preferences) -> Drawing:
+        factors, unit = _per_joint(curves, preferences)
+        bands = []
+        for joint, factor in zip(curves.robot.joints, factors, strict=True):
+            known = getattr(joint, limit) if limit else None
+            most = math.inf if known is None else known.value * factor
+            bands.append(Band(joint.color, -most, most))
+        return Drawing(title, _over(unit, below), _joint_lines(curves, getattr(curves, order), factors), tuple(bands))
+
+    return draw
+
+
+def _place(curves: Curves, preferences: Preferences) -> Drawing:
+    shown = display(length_kind(curves.robot), preferences)
+    found = [
+        Line(axis, color, curves.place[:, i] * shown.factor)
+        for i, (axis, color) in enumerate(zip("xyz", _AXIS_COLORS, strict=True))
+    ]
+    if curves.desired is not None:
+        found += [
+            Line(f"{axis} wanted", color, curves.desired[:, i] * shown.factor, dashed=True)
+            for i, (axis, color) in enumerate(zip("xyz", _AXIS_COLORS, strict=True))
+        ]
+    return Drawing("Tool position", shown.suffix.strip(), tuple(found))
+
+
+def _speed(curves: Curves, preferences: Preferences) -> Drawing:
+    shown = display(length_kind(curves.robot), preferences)
+    return Drawing(
+        "Tool speed", f"{shown.suffix.strip()}/s", (Line("speed", _TOOL_COLOR, curves.speed * shown.factor),)
+    )
+
+
+def _torque(curves: Curves, _preferences: Preferences) -> Drawing:
+    if curves.torque is None:
+        why = f"No mass data for the {curves.robot.title}: enter it under Inspect › Dynamics."
+        return Drawing("Torque", "N m", empty=why)
+    unit = "N m" if curves.robot.is_revolute.all() else "N m, N"
+    bands = []
+    for joint in curves.robot.joints:
+        most = math.inf if joint.max_torque is None else joint.max_torque.value
+        bands.append(Band(joint.color, -most, most))
+    return Drawing("Torque", unit, _joint_lines(curves, curves.torque, [1.0] * curves.robot.dof), tuple(bands))
+
+
+def _sigma(curves: Curves, _preferences: Preferences) -> Drawing:
+    line = Line("σ min", _TOOL_COLOR, curves.sigma_min)
+    return Drawing("Smallest σ of J", "", (line,), (Band("#D55E00", NEAR_SINGULAR, math.inf),))
+
+
+def _deviation(curves: Curves, preferences: Preferences) -> Drawing:
+    if curves.deviation is None:
+        return Drawing("Deviation", "", empty="No path: track a line or a trajectory first.")
+    kind: Kind = length_kind(curves.robot)
+    shown = display(kind, preferences)
+    unit, factor = shown.suffix.strip(), shown.factor
+    largest = float(np.nanmax(np.abs(curves.deviation))) if np.isfinite(curves.deviation).any() else 0.0
+    if kind == "length" and largest * factor < 0.01:
+        unit, factor = "µm", 1e6
+    return Drawing("Deviation", unit, (Line("deviation", _TOOL_COLOR, curves.deviation * factor),))
+
+
+PLOTS: tuple[PlotKind, ...] = (
+    PlotKind("q", "q", "Joints over time, between their limits", _joints),
+    PlotKind("qd", "q′", "Speeds of the joints", _rates("Joint speeds", "qd", "/s", "max_speed")),
+    PlotKind("qdd", "q″", "Accelerations", _rates("Joint accelerations", "qdd", "/s²", "max_acceleration")),
+    PlotKind("jerk", "q‴", "Jerks of the joints", _rates("Joint jerks", "jerk", "/s³")),
+    PlotKind("tool", "Tool", "Where the tool is, and where the path wants it", _place),
+    PlotKind("speed", "Speed", "How fast the tool goes", _speed),
+    PlotKind("torque", "Torque", "What the joints must give", _torque),
+    PlotKind("sigma", "σ min", "How near to a singularity", _sigma),
+    PlotKind("deviation", "Deviation", "How far the tool is from the path", _deviation),
+)

@@ -1,0 +1,197 @@
+"""One plot over time. Importing this imports pyqtgraph: do it when the first plot is needed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from rvsim.gui.plots.catalogue import Band, Drawing, Line
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.theme import THEMES, Theme
+from rvsim.robot.arrays import FloatArray
+
+_AXIS_WIDTH = 52
+_ROOM = 0.06  # of the range, above and below
+_NEAR = 0.4  # a limit that far beyond a curve, in parts of its range, is shown
+_BAND_ALPHA = 26
+
+
+class TimePlot(QWidget):
+    """Curves over time with a cursor. The curves are painted once; moving the cursor paints a line over them.
+
+    Signals:
+        picked(time): the mouse pressed or dragged at a time [s].
+    """
+
+    picked = Signal(float)
+
+    def __init__(self, preferences: Preferences, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._preferences = preferences
+        self._drawing = Drawing("", "")
+        self._times: FloatArray = np.zeros(1)
+        self._time = 0.0
+        self._picture = QPixmap()
+        self._marks: tuple[float, ...] = ()
+        self.plot = pg.PlotWidget(background=None)
+        self.plot.setAttribute(Qt.WidgetAttribute.WA_DontShowOnScreen)  # it is a brush: what it paints is kept
+        self.plot.show()
+        self.plot.setMouseEnabled(x=False, y=False)
+        self.plot.hideButtons()
+        self.plot.getAxis("left").setWidth(_AXIS_WIDTH)
+        self._later = QTimer(self, singleShot=True, interval=0)  # a window that is being resized paints once a frame
+        self._later.timeout.connect(self.repaint_curves)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setMinimumSize(150, 84)
+        self.setCursor(Qt.CursorShape.SplitHCursor)
+        self.setToolTip("Click or drag to go to that moment")
+
+    # --- what is shown ---------------------------------------------------------------------------------------------
+
+    def show_drawing(self, drawing: Drawing, times: FloatArray, marks: tuple[float, ...]) -> None:
+        """Show curves over times (m,) [s], with marks at some of them."""
+        self._drawing, self._times, self._marks = drawing, times, marks
+        self.setAccessibleName(f"{drawing.title} over time")
+        self.repaint_curves()
+
+    def set_time(self, time: float) -> None:
+        """Put the cursor at a time [s]."""
+        if time != self._time:
+            self._time = time
+            self.update()
+
+    def repaint_curves(self) -> None:
+        """Paint the curves anew: others, another theme, or another size."""
+        theme = THEMES[self._preferences["theme"]]
+        self.plot.resize(self.size())
+        self.plot.clear()
+        self.plot.setBackground(theme.base)
+        self._dress_axes(theme)
+        bands = tuple(band for band in self._drawing.bands if self._is_near(band))
+        low, high = _span(self._drawing.lines, bands)
+        self.plot.setYRange(low, high, padding=0.0)
+        self.plot.setXRange(0.0, max(float(self._times[-1]), 1e-3), padding=0.0)
+        for band in bands:
+            self._add_band(band, low, high)
+        for line in self._drawing.lines:
+            style = Qt.PenStyle.DashLine if line.dashed else Qt.PenStyle.SolidLine
+            pen = pg.mkPen(_visible(line.color, theme), width=1.0 if line.dashed else 1.8, style=style)
+            self.plot.plot(self._times, line.values, pen=pen, antialias=True, connect="finite")
+        self.plot.getPlotItem().layout.activate()
+        self._picture = self.plot.grab()
+        self.update()
+
+    def value_texts(self) -> list[tuple[str, str, float]]:
+        """(name, colour, value at the cursor) of each curve that is not dashed, in shown units."""
+        index = int(np.clip(np.searchsorted(self._times, self._time), 0, len(self._times) - 1))
+        return [(line.name, line.color, float(line.values[index])) for line in self._drawing.lines if not line.dashed]
+
+    def _dress_axes(self, theme: Theme) -> None:
+        for side in ("bottom", "left"):
+            axis = self.plot.getAxis(side)
+            axis.setPen(theme.border)
+            axis.setTextPen(theme.muted)
+            axis.setStyle(tickLength=-4, tickFont=self.font())
+            axis.enableAutoSIPrefix(False)
+        self.plot.showGrid(x=True, y=True, alpha=0.15)
+        unit = f" [{self._drawing.unit}]" if self._drawing.unit else ""
+        self.plot.setTitle(f"{self._drawing.title}{unit} over t [s]", color=theme.text, size=f"{self.font().pointSizeF():.1f}pt")
+
+    def _is_near(self, band: Band) -> bool:
+        """Whether its curve comes near to the limit: all limits of all joints at once would hide the curves."""
+        own = [line.values for line in self._drawing.lines if line.color == band.color or len(self._drawing.bands) == 1]
+        values = own[0][np.isfinite(own[0])] if own else np.empty(0)
+        if not values.size:
+            return False
+        reach = _NEAR * max(float(np.ptp(values)), 1e-9)
+        return bool(values.min() - reach < band.low or values.max() + reach > band.high)
+
+    def _add_band(self, band: Band, low: float, high: float) -> None:
+        """What is outside the limits, shaded in the colour of its curve, with the limit as a dashed line."""
+        color = QColor(band.color)
+        shade = QColor(color)
+        shade.setAlpha(_BAND_ALPHA)
+        for limit, far in ((band.low, low), (band.high, high)):
+            if math.isfinite(limit) and low < limit < high:
+                region = pg.LinearRegionItem(sorted((limit, far)), "horizontal", movable=False, brush=shade, pen=None)
+                edge = pg.InfiniteLine(limit, angle=0, pen=pg.mkPen(color, width=1, style=Qt.PenStyle.DashLine))
+                self.plot.addItem(region, ignoreBounds=True)
+                self.plot.addItem(edge, ignoreBounds=True)
+
+    # --- painting and hands ----------------------------------------------------------------------------------------
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """The curves, and the cursor over them."""
+        painter = QPainter(self)
+        painter.drawPixmap(0, 0, self._picture)
+        theme = THEMES[self._preferences["theme"]]
+        if self._drawing.empty:
+            painter.setPen(QColor(theme.muted))
+            room = self.rect().adjusted(_AXIS_WIDTH + 8, 24, -8, -24)
+            painter.drawText(room, Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, self._drawing.empty)
+            return
+        view = self.plot.getViewBox().sceneBoundingRect()
+        for mark in self._marks:
+            x = self._x_of(mark)
+            painter.setPen(QColor(theme.error))
+            painter.drawText(QPointF(x - 3.0, view.top() + 9.0), "▾")
+        painter.setPen(QPen(QColor(theme.accent), 1.5))
+        x = self._x_of(self._time)
+        painter.drawLine(QPointF(x, view.top()), QPointF(x, view.bottom()))
+
+    def _x_of(self, time: float) -> float:
+        view = self.plot.getViewBox().sceneBoundingRect()
+        return float(view.left() + view.width() * time / max(float(self._times[-1]), 1e-3))
+
+    def _pick(self, event: QMouseEvent) -> None:
+        view = self.plot.getViewBox().sceneBoundingRect()
+        share = (event.position().x() - view.left()) / max(view.width(), 1.0)
+        self.picked.emit(float(np.clip(share, 0.0, 1.0)) * float(self._times[-1]))
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Go to that moment."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._pick(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Drag through the moments."""
+        if event.buttons() & Qt.MouseButton.LeftButton:
+            self._pick(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """What is around may scroll."""
+        event.ignore()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """The curves in the new size."""
+        super().resizeEvent(event)
+        self._later.start()
+
+
+def _span(lines: Sequence[Line], bands: Sequence[Band]) -> tuple[float, float]:
+    """From the least to the largest value and the limits that are near, with a little room."""
+    values = [line.values[np.isfinite(line.values)] for line in lines]
+    flat = np.concatenate(values) if values else np.zeros(1)
+    if not flat.size:
+        return -1.0, 1.0
+    least, most = float(flat.min()), float(flat.max())
+    near = [limit for band in bands for limit in (band.low, band.high) if math.isfinite(limit)]
+    reach = _NEAR * max(most - least, 1e-9)
+    low = min([least, *(limit for limit in near if limit > least - reach)])
+    high = max([most, *(limit for limit in near if limit < most + reach)])
+    room = _ROOM * max(high - low, 1e-9 * max(abs(low), abs(high), 1e-3))
+    return low - room, high + room
+
+
+def _visible(color: str, theme: Theme) -> QColor:
+    """A joint's colour, darker on white and lighter on black, so that yellow can be seen too."""
+    shown = QColor(color)
+    if not theme.dark and shown.lightnessF() > 0.5:
+        return shown.darker(135)
+    return shown.lighter(140) if theme.dark and shown.lightnessF() < 0.4 else shown
