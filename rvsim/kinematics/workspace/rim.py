@@ -1,0 +1,72 @@
+"""The exact rim of a side section: where the tool stops in the plane through the turntable's axis."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rvsim.kinematics.workspace.grid import BoolArray, Grid
+from rvsim.kinematics.workspace.outline import at_an_edge, stopping_curves
+from rvsim.kinematics.workspace.place import Turntable, places_and_manipulability
+from rvsim.kinematics.workspace.sampling import PoseSampler, edge_values
+from rvsim.spatial.arrays import FloatArray
+
+_MOST_JOINTS = 3  # that move the tool in the plane; with more, edges come from too many poses to list
+
+
+class Rim:
+    """The arm of a sampler on its turntable, cut at an azimuth [rad]."""
+
+    def __init__(self, sampler: PoseSampler, table: Turntable, azimuth: float) -> None:
+        self._robot, self._ranges = sampler.robot, sampler.ranges
+        self._table, self._azimuth = table, azimuth
+        self._moving = self._moving_joints(sampler.block(0, 64))
+
+    def pieces(self, grid: Grid, reached: BoolArray) -> FloatArray | None:
+        """Line pieces (k, 2, 2) of the curves on which the tool may stop, where the section does end there.
+
+        None for an arm with too many joints that move the tool in the plane.
+        """
+        moving = self._moving
+        if not 1 <= len(moving) <= _MOST_JOINTS:
+            return None
+        edges = edge_values(self._robot, self._ranges)
+        curves = stopping_curves(self._flat, self._ranges[moving], tuple(edges[joint] for joint in moving))
+        return np.concatenate([self._kept(curve, grid, reached) for curve in curves])
+
+    def _moving_joints(self, q: FloatArray) -> list[int]:
+        """The joints that move the tool within the plane."""
+        here = np.stack(self._cylindrical(q)[::2])
+        found = []
+        for joint in range(1, self._robot.dof):
+            moved = q.copy()
+            moved[:, joint] += 0.1
+            if np.abs(np.stack(self._cylindrical(moved)[::2]) - here).max() > 1e-9 * self._robot.size:
+                found.append(joint)
+        return found
+
+    def _cylindrical(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        return self._table.cylindrical(places_and_manipulability(self._robot, q)[0])
+
+    def _poses(self, values: FloatArray) -> FloatArray:
+        q = np.zeros((len(values), self._robot.dof))
+        q[:, self._moving] = values
+        return q
+
+    def _flat(self, values: FloatArray) -> FloatArray:
+        """(m, 2) distance from the axis and height for the moving joints (m, k)."""
+        rho, _, z = self._cylindrical(self._poses(values))
+        return np.stack([rho, z], axis=-1)
+
+    def _kept(self, curve: FloatArray, grid: Grid, reached: BoolArray) -> FloatArray:
+        """The pieces of a curve on both sides of the axis, where joint 1 goes there and the section ends."""
+        rho, phi, z = self._cylindrical(self._poses(curve))
+        kept = []
+        for side in (0.0, math.pi):
+            flat = np.stack([math.cos(side) * rho, z], axis=-1)
+            shown = self._table.turns_to(self._azimuth + side - phi, self._ranges[0])
+            shown &= at_an_edge(grid, reached, flat)
+            both = shown[:-1] & shown[1:]
+            kept.append(np.stack([flat[:-1][both], flat[1:][both]], axis=1))
+        return np.concatenate(kept)
