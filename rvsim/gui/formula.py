@@ -220,8 +220,8 @@ def _outline(digit: str) -> QPainterPath:
 
 
 def _symbol_outline(symbol: ElementTree.Element) -> QPainterPath:
-    drawn = symbol.find(f"{_SVG}path")
-    return _painter_path("" if drawn is None else drawn.get("d", ""))
+    # A bracket that is taller than any the font has is put together from several pieces.
+    return _painter_path(" ".join(drawn.get("d", "") for drawn in symbol.iter(f"{_SVG}path")))
 
 
 @lru_cache(maxsize=_KEPT)

@@ -79,3 +79,10 @@ def test_plain_text_can_be_read_aloud():
     assert (
         plain_text("\\operatorname{atan2}(-0.5,\\,\\sqrt{1-C^2}) = -30.00^\\circ") == "atan2(−0.5, √(1−C²)) = −30.00°"
     )
+
+
+@pytest.mark.parametrize("rows", [2, 5, 6])
+def test_a_bracket_reaches_from_the_first_row_to_the_last(qapp, rows):
+    column = " \\\\ ".join(["1"] * rows)
+    bare, bracketed = (typeset(f"\\begin{{{kind}}} {column} \\end{{{kind}}}") for kind in ("matrix", "bmatrix"))
+    assert bracketed.path.boundingRect().height() > bare.path.boundingRect().height()
