@@ -6,36 +6,72 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rvsim.gui.quantities import Kind
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import (
     axis_angle_from_rotation,
     quaternion_from_rotation,
+    rotation_from_axis_angle,
+    rotation_from_quaternion,
     rotation_from_rpy,
     rotation_from_zyz,
     rpy_from_rotation,
     zyz_from_rotation,
 )
 
+_NO_DIRECTION = 1e-9  # a length below it has no direction
+_ROUNDING = 1e-9
+
 
 class Notation(NamedTuple):
-    """A notation: `read` gives its numbers of R (3, 3); `write` gives R of the numbers, where each may be changed."""
+    """A notation: `read` gives its numbers of R (3, 3); `write` gives R of the numbers, where each may be changed.
+
+    Its first `direction` numbers only count by their ratios: they are brought to length 1.
+    """
 
     title: str
     convention: str
     names: tuple[str, ...]
     kinds: tuple[Kind, ...]
     read: Callable[[FloatArray], FloatArray]
-    write: Callable[[ArrayLike], FloatArray] | None = None
+    write: Callable[[FloatArray], FloatArray]
+    hint: str
+    direction: int = 0
+
+    def problem(self, values: FloatArray) -> str:
+        """Why the numbers (k,) mean no orientation, or nothing."""
+        if not self.direction or float(np.linalg.norm(values[: self.direction])) >= _NO_DIRECTION:
+            return ""
+        names = ", ".join(self.names[: self.direction])
+        return f"{'0 ' * self.direction}has no direction: one of {names} must be other than 0. The tool stays."
+
+
+def _quaternion(R: FloatArray) -> FloatArray:
+    q = quaternion_from_rotation(R)
+    return q * _sign_of_first(q[1:]) if q[0] < _ROUNDING else q
 
 
 def _axis_and_angle(R: FloatArray) -> FloatArray:
     axis, angle = axis_angle_from_rotation(R)
-    return np.append(axis, angle)
+    return np.append(axis * _sign_of_first(axis) if np.pi - angle < _ROUNDING else axis, angle)
 
 
+def _sign_of_first(direction: FloatArray) -> float:
+    """±1: at half a turn both senses are right, and rounding must not choose: the first entry other than 0 is > 0."""
+    first = int(np.argmax(np.abs(direction) > _ROUNDING))
+    return -1.0 if direction[first] < 0.0 else 1.0
+
+
+def _rotation_of_axis_and_angle(numbers: FloatArray) -> FloatArray:
+    return rotation_from_axis_angle(numbers[:3], numbers[3])
+
+
+_PASTE_THREE = "Three numbers can be pasted or typed into any of the boxes."
+_PASTE_FOUR = (
+    "Type one after the other: each stays as it is typed until you leave the boxes,\n"
+    "{}\nFour numbers can be pasted or typed into any of the boxes."
+)
 _ANGLES: tuple[Kind, ...] = ("angle", "angle", "angle")
 NOTATIONS = {
     "rpy": Notation(
@@ -45,6 +81,7 @@ NOTATIONS = {
         _ANGLES,
         rpy_from_rotation,
         rotation_from_rpy,
+        _PASTE_THREE,
     ),
     "zyz": Notation(
         "ZYZ Euler angles",
@@ -53,13 +90,17 @@ NOTATIONS = {
         _ANGLES,
         zyz_from_rotation,
         rotation_from_zyz,
+        _PASTE_THREE,
     ),
     "quaternion": Notation(
         "Quaternion",
         "q = w + x i + y j + z k, a unit quaternion with the scalar first and w ≥ 0.",
         ("w", "x", "y", "z"),
         ("number", "number", "number", "number"),
-        quaternion_from_rotation,
+        _quaternion,
+        rotation_from_quaternion,
+        _PASTE_FOUR.format("then the four are shown brought to length 1, as the tool has taken them."),
+        4,
     ),
     "axis_angle": Notation(
         "Axis and angle",
@@ -67,6 +108,9 @@ NOTATIONS = {
         ("axis x", "axis y", "axis z", "angle"),
         ("number", "number", "number", "angle"),
         _axis_and_angle,
+        _rotation_of_axis_and_angle,
+        _PASTE_FOUR.format("then the axis is shown brought to length 1, as the tool has taken it."),
+        3,
     ),
 }
 MATRIX = "matrix"

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from rvsim.gui.branch_words import singular_words
+from rvsim.gui.orientations import MATRIX, NOTATIONS
 from rvsim.gui.panels.inverse_matrix import MatrixDialog
 from rvsim.gui.panels.inverse_order import OrderButton
 from rvsim.gui.panels.inverse_table import BranchModel, BranchTable, Row
-from rvsim.gui.panels.tool import NumberRow
+from rvsim.gui.panels.number_row import NumberRow
+from rvsim.gui.panels.orientation_boxes import OrientationBoxes
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_quantity, format_scientific, length_kind
 from rvsim.gui.target import TargetControl, Wish
@@ -22,11 +22,10 @@ from rvsim.gui.target_solution import CLOSED_FORM, SOLVER_TITLES, TASK_TITLES, A
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, column_of, combo, form, scrolled, select
 from rvsim.robot.arrays import FloatArray
-from rvsim.spatial import rotation_from_rpy, rpy_from_rotation
 
 _AXES = ("x", "y", "z")
-_ANGLES = ("roll", "pitch", "yaw")
 _HINT = "Point at a branch to see its ghost; click it, or press Enter, to go there."
+_PASTE_PLACE = "Three numbers can be pasted or typed into any of the boxes."
 _UNITS = ("angle_unit", "length_unit", "extra_decimals")
 
 
@@ -36,14 +35,17 @@ class TargetSection(QWidget):
     def __init__(self, control: TargetControl, preferences: Preferences) -> None:
         super().__init__()
         self._control, self._preferences = control, preferences
-        self.position = NumberRow("target", _AXES, ("length",) * 3, preferences)
-        self.angles = NumberRow("target", _ANGLES, ("angle",) * 3, preferences)
-        for row, names in ((self.position, _AXES), (self.angles, _ANGLES)):
-            for box, name in zip(row.boxes, names, strict=True):
-                box.setAccessibleName(f"Target {name}")
-                box.quantity_changed.connect(partial(self._on_edited, name))
-                box.refused.connect(control.session.warn)
-                box.editingFinished.connect(control.session.end_stroke)
+        self.position = NumberRow("target", _AXES, ("length",) * 3, preferences, "Target", _PASTE_PLACE)
+        self.angles = OrientationBoxes("target", "Target", preferences)
+        self.position.edited.connect(lambda index: self._want(control.T[:3, :3], _AXES[index]))
+        self.angles.turned.connect(self._want)
+        self.angles.told.connect(control.session.say)
+        for boxes in (self.position, self.angles):
+            boxes.refused.connect(control.session.warn)
+            boxes.finished.connect(control.session.end_stroke)
+        titles = {name: notation.title for name, notation in NOTATIONS.items()}
+        self.notation = combo("target_notation_selector", "Notation of the orientation", titles)
+        self.notation.activated.connect(lambda _: preferences.set("orientation", self.notation.currentData()))
         self.task = combo("ik_task_selector", "What of the pose counts")
         self.task.activated.connect(lambda _: control.set_task(self.task.currentData()))
         self.solver = combo("ik_solver_selector", "Who solves")
@@ -55,6 +57,7 @@ class TargetSection(QWidget):
         )
         self._lay_out()
         self.show_offer()
+        self.show_notation()
 
     def _lay_out(self) -> None:
         rows = form()
@@ -74,6 +77,7 @@ class TargetSection(QWidget):
         column.addLayout(rows)
         column.addLayout(tools)
         column.addWidget(self.position)
+        column.addWidget(self.notation)
         column.addWidget(self.angles)
 
     def show_offer(self) -> None:
@@ -96,14 +100,19 @@ class TargetSection(QWidget):
     def show_target(self, T: FloatArray) -> None:
         """Show a target (4, 4)."""
         self.position.show_values(T[:3, 3])
-        self.angles.show_values(rpy_from_rotation(T[:3, :3]))
+        self.angles.show_rotation(T[:3, :3])
 
-    def _on_edited(self, name: str, _value: float) -> None:
+    def show_notation(self) -> None:
+        """The notation of the preferences; a matrix is no row of boxes, it is pasted."""
+        name = self._preferences["orientation"]
+        shown = "rpy" if name == MATRIX else name
+        select(self.notation, shown)
+        self.notation.setToolTip(f"Notation of the orientation. {NOTATIONS[shown].convention}")
+        self.angles.show_notation(shown)
+
+    def _want(self, R: FloatArray, name: str) -> None:
         T = np.eye(4)
-        T[:3, 3] = [box.quantity for box in self.position.boxes]
-        T[:3, :3] = self._control.T[:3, :3]
-        if name in _ANGLES:
-            T[:3, :3] = rotation_from_rpy([box.quantity for box in self.angles.boxes])
+        T[:3, :3], T[:3, 3] = R, self.position.values
         self._control.set_target(Wish(T, f"Target {name}", f"target {name}"))
 
     def ask_matrix(self) -> None:
@@ -257,6 +266,8 @@ class InversePanel(QWidget):
         for preference, switch in (("arm_follows", self.follow), ("all_ghosts", self.ghosts)):
             if name == preference:
                 switch.setChecked(self._preferences[preference])
+        if name == "orientation":
+            self.target.show_notation()
         if name in _UNITS:
             self._show_robot()
             self._show()

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QVB
 
 from rvsim.experiment import random_pose
 from rvsim.gui.panels.laboratory_fields import Disclosure, StartJoint
-from rvsim.gui.panels.tool import NumberRow
+from rvsim.gui.panels.number_row import NumberRow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import length_kind
 from rvsim.gui.session import Session

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from rvsim.gui.matrix_view import MatrixView
-from rvsim.gui.orientations import MATRIX, MATRIX_CONVENTION, NOTATIONS, Notation, notation_titles
+from rvsim.gui.orientations import MATRIX, MATRIX_CONVENTION, NOTATIONS, notation_titles
 from rvsim.gui.panels.copying import CopyButton
+from rvsim.gui.panels.number_row import NumberRow
+from rvsim.gui.panels.orientation_boxes import OrientationBoxes
 from rvsim.gui.panels.shown import NUMBER_SETTINGS, ReadOutPanel
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import Kind, display, format_scientific, half_turn_up, length_kind, shown_units
-from rvsim.gui.quantity_box import QuantityBox
+from rvsim.gui.quantities import Kind, display, format_scientific, length_kind, shown_units
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.tool_edits import ToolEdit, moved_tool, turned_tool
@@ -33,37 +33,6 @@ _SECOND_WAY = (
 _UNIT_NAMES = {"°": "deg", "rad": "rad", "mm": "mm", "m": "m", "unit": "unit", "": ""}
 
 
-class NumberRow(QWidget):
-    """Boxes side by side under their names."""
-
-    def __init__(self, prefix: str, names: tuple[str, ...], kinds: tuple[Kind, ...], preferences: Preferences) -> None:
-        super().__init__()
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(2)
-        self._kinds, self._preferences = kinds, preferences
-        self.boxes: list[QuantityBox] = []
-        for column, (name, kind) in enumerate(zip(names, kinds, strict=True)):
-            box = QuantityBox(kind, preferences, f"Tool {name}")
-            box.setObjectName(f"{prefix}_{name.replace(' ', '_')}")
-            box.setMinimumWidth(64)
-            box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-            label = QLabel(name)
-            label.setBuddy(box)
-            set_role(label, role="muted")
-            grid.addWidget(label, 0, column, Qt.AlignmentFlag.AlignRight)
-            grid.addWidget(box, 1, column)
-            grid.setColumnStretch(column, 1)
-            self.boxes.append(box)
-
-    def show_values(self, values: FloatArray) -> None:
-        """Show SI values, silently."""
-        for box, kind, value in zip(self.boxes, self._kinds, values.tolist(), strict=True):
-            shown = half_turn_up(value, display(kind, self._preferences)) if kind == "angle" else value
-            box.set_quantity(shown)
-
-
 class ToolPanel(ReadOutPanel):
     """Reads out T_base_tool; an edited number is solved for the joints."""
 
@@ -79,33 +48,25 @@ class ToolPanel(ReadOutPanel):
         self.position = NumberRow("tool", _AXES, ("length", "length", "length"), preferences)
         self.orientations = combo("orientation_selector", "Notation of the orientation", notation_titles())
         self.orientations.activated.connect(lambda _: preferences.set("orientation", self.orientations.currentData()))
-        self.rows = {name: self._page(name, notation) for name, notation in NOTATIONS.items()}
+        self.angles = OrientationBoxes("tool", "Tool", preferences)
+        self.rows = self.angles.rows
         self.matrix = MatrixView(preferences, "Tool pose as a matrix")
         self.matrix.setObjectName("tool_matrix")
         self.convention, self.message, self.difference = QLabel(), QLabel(), QLabel()
         formats = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
         self.copy = CopyButton("tool_copy", "the tool pose", formats, session)
-        self._connect_position()
+        self._connect()
         self._lay_out()
 
     # --- construction ----------------------------------------------------------------------------------------------
 
-    def _page(self, name: str, notation: Notation) -> NumberRow:
-        row = NumberRow("tool" if name == "rpy" else f"tool_{name}", notation.names, notation.kinds, self._preferences)
-        for index, box in enumerate(row.boxes):
-            box.setReadOnly(notation.write is None)
-            box.quantity_changed.connect(lambda value, i=index, n=notation: self._turn(n, i, value))
-            self._connect_box(box)
-        return row
-
-    def _connect_position(self) -> None:
-        for index, box in enumerate(self.position.boxes):
-            box.quantity_changed.connect(lambda value, i=index: self._move(i, value))
-            self._connect_box(box)
-
-    def _connect_box(self, box: QuantityBox) -> None:
-        box.refused.connect(self._complain)
-        box.editingFinished.connect(self._session.end_stroke)
+    def _connect(self) -> None:
+        self.position.edited.connect(self._move)
+        self.angles.turned.connect(self._turn)
+        self.angles.told.connect(self._session.say)
+        for boxes in (self.position, self.angles):
+            boxes.refused.connect(self._complain)
+            boxes.finished.connect(self._session.end_stroke)
 
     def _lay_out(self) -> None:
         for label, name in (
@@ -130,8 +91,8 @@ class ToolPanel(ReadOutPanel):
         column.addWidget(self.position)
         column.addSpacing(6)
         column.addLayout(_headed("Orientation", self.orientations))
-        for page in (*self.rows.values(), self.matrix):
-            page.hide()
+        self.matrix.hide()
+        for page in (self.angles, self.matrix):
             column.addWidget(page)
         for label in (self.convention, self.message):
             column.addWidget(label)
@@ -166,14 +127,14 @@ class ToolPanel(ReadOutPanel):
 
     def _show_orientation(self, chosen: str) -> None:
         select(self.orientations, chosen)
-        for name, row in self.rows.items():
-            row.setVisible(name == chosen)
+        self.angles.setVisible(chosen != MATRIX)
         self.matrix.setVisible(chosen == MATRIX)
         if chosen == MATRIX:
             self.matrix.show_matrix(self._T, length_kind(self._session.robot))
             self.convention.setText(MATRIX_CONVENTION)
         else:
-            self.rows[chosen].show_values(NOTATIONS[chosen].read(self._T[:3, :3]))
+            self.angles.show_notation(chosen)
+            self.angles.show_rotation(self._T[:3, :3])
             self.convention.setText(NOTATIONS[chosen].convention)
 
     def _take_robot(self, robot: Robot) -> None:
@@ -199,19 +160,13 @@ class ToolPanel(ReadOutPanel):
             robot = self._session.robot.with_tool(name)
             self._session.edit(f"Take the {robot.tool.title}", self._session.experiment.with_robot(robot))
 
-    def _move(self, axis: int, value: float) -> None:
-        p = np.array(self._T[:3, 3])
-        p[axis] = value
-        edit = moved_tool(self._session.experiment, self._T, p, shown_units(self._preferences))
+    def _move(self, axis: int) -> None:
+        edit = moved_tool(self._session.experiment, self._T, self.position.values, shown_units(self._preferences))
         self._take(edit, f"Move the tool along {_AXES[axis]}", f"tool {_AXES[axis]}")
 
-    def _turn(self, notation: Notation, index: int, value: float) -> None:
-        assert notation.write is not None, "read-only boxes are not edited"
-        angles = np.array(notation.read(self._T[:3, :3]))
-        angles[index] = value
-        R, units = notation.write(angles), shown_units(self._preferences)
-        edit = turned_tool(self._session.experiment, self._T, R, units)
-        self._take(edit, f"Turn the tool's {notation.names[index]}", f"tool {notation.names[index]}")
+    def _turn(self, R: FloatArray, name: str) -> None:
+        edit = turned_tool(self._session.experiment, self._T, R, shown_units(self._preferences))
+        self._take(edit, f"Turn the tool's {name}", f"tool {name}")
 
     def _take(self, edit: ToolEdit, text: str, merge: str) -> None:
         if edit.q is not None:

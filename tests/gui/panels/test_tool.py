@@ -14,7 +14,7 @@ from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.tool import ToolPanel
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.kinematics import forward_kinematics
-from rvsim.spatial import rotation_from_axis_angle, rotation_from_quaternion, rpy_from_rotation
+from rvsim.spatial import rot_z, rotation_from_quaternion, rotation_from_rpy, rpy_from_rotation, transform
 
 POSE = np.radians([30.0, 40.0, -50.0, 20.0, 60.0])
 POSES = {
@@ -80,11 +80,7 @@ def test_every_notation_shows_the_same_rotation_and_says_its_convention(panel, p
     assert row.isVisible()
     assert panel.findChild(QLabel, "orientation_convention").text() == NOTATIONS[notation].convention
     values = np.array([field.quantity for field in row.boxes])
-    write = {
-        "quaternion": rotation_from_quaternion,
-        "axis_angle": lambda v: rotation_from_axis_angle(v[:3], v[3]),
-    }.get(notation, NOTATIONS[notation].write)
-    np.testing.assert_allclose(write(values), tool(panel)[:3, :3], atol=1e-14)
+    np.testing.assert_allclose(NOTATIONS[notation].write(values), tool(panel)[:3, :3], atol=1e-14)
 
 
 def test_the_matrix_is_a_notation_too_and_the_selector_chooses(panel, preferences, qtbot):
@@ -244,13 +240,36 @@ def test_steps_in_one_go_are_one_undo_step(panel, qtbot):
     np.testing.assert_array_equal(session.q, before)
 
 
-def test_read_only_notations_cannot_be_edited(panel, preferences, qtbot):
+@pytest.mark.parametrize(("notation", "numbers"), [("quaternion", "0 1 0 1"), ("axis_angle", "0 2 0 90")])
+def test_a_whole_orientation_is_pasted_into_any_box(panel_with, preferences, qtbot, notation, numbers):
+    panel = panel_with("ur5e")
+    preferences.set("orientation", notation)
+    p = tool(panel)[:3, 3]
+    values = np.array([float(number) for number in numbers.split()])
+    wanted = rotation_from_quaternion(values) if notation == "quaternion" else rotation_from_rpy([0, np.pi / 2, 0])
+    field = panel.rows[notation].boxes[2]
+    field.setFocus()
+    QGuiApplication.clipboard().setText(numbers)
+    qtbot.keyClick(field, Qt.Key.Key_V, Qt.KeyboardModifier.ControlModifier)
+    np.testing.assert_allclose(tool(panel)[:3, :3], wanted, atol=1e-9)
+    np.testing.assert_allclose(tool(panel)[:3, 3], p, atol=1e-9)
+    panel._session.undo_stack.undo()
+    np.testing.assert_array_equal(panel._session.q, POSES["ur5e"])
+
+
+def test_a_quaternion_that_five_joints_cannot_have_yet_stays_as_it_is_typed(panel, preferences, qtbot):
+    before, here = panel._session.q, tool(panel)
     preferences.set("orientation", "quaternion")
-    before = panel._session.q
-    field = box(panel, "tool_quaternion_w")
-    qtbot.keyClick(field, Qt.Key.Key_Up)
-    qtbot.keyClicks(field, "1")
+    target = NOTATIONS["quaternion"].read(here[:3, :3] @ rot_z(0.4))  # its roll
+    fields = [f"tool_quaternion_{name}" for name in "wxyz"]
+    for field, number in zip(fields[:3], target[:3], strict=True):
+        enter(panel, qtbot, field, f"{number:.15f}")
     assert panel._session.q is before
+    assert "not in this orientation" in message(panel)
+    np.testing.assert_allclose(panel.rows["quaternion"].values[:3], target[:3], atol=1e-12)
+    enter(panel, qtbot, fields[3], f"{target[3]:.15f}")
+    assert message(panel) == ""
+    np.testing.assert_allclose(tool(panel), here @ transform(rot_z(0.4), np.zeros(3)), atol=1e-7)
 
 
 # --- copying -------------------------------------------------------------------------------------------------------
