@@ -48,7 +48,8 @@ class _Layers(NamedTuple):
 def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, height: int, smooth: bool = True) -> None:
     """Paints a scene into `width` × `height` device-independent pixels from the painter's origin.
 
-    Points that are nan, or behind the eye, are left out. Without `smooth` the solids' edges are rough, which is faster.
+    Points that are nan, or behind the eye, are left out. Without `smooth` the edges of solids
+    and ghosts are rough, which is faster.
     """
     lens = Lens(camera, max(width, 1), max(height, 1))
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -58,7 +59,7 @@ def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, hei
     solids = render_solids(layers.solids, lens, painter.device().devicePixelRatioF(), smooth)
     if solids is not None:
         solids.draw(painter)
-    _paint(painter, [stroke for seen in layers.lines for stroke in _line_strokes(seen, lens, solids)])
+    _paint(painter, [stroke for seen in layers.lines for stroke in _line_strokes(seen, lens, solids, smooth)])
     _paint(painter, [stroke for seen in layers.triads for stroke in triad_strokes(seen, lens, scene.background)])
     for seen in layers.gizmo:  # nothing hides what is to be taken hold of
         for stroke in _line_strokes(seen, lens, None):
@@ -91,13 +92,13 @@ def _paint(painter: QPainter, strokes: Iterable[Stroke]) -> None:
         stroke.draw(painter)
 
 
-def _line_strokes(seen: Seen[Item], lens: Lens, solids: SolidPicture | None) -> list[Stroke]:
+def _line_strokes(seen: Seen[Item], lens: Lens, solids: SolidPicture | None, smooth: bool = True) -> list[Stroke]:
     item, eye, pixels = seen
     if isinstance(item, Polyline):
         return polyline_strokes(Seen(item, eye, pixels), lens, solids)
     if isinstance(item, Dots):
         return dot_strokes(Seen(item, eye, pixels), lens, solids)
-    return segments_strokes(Seen(item, eye, pixels), lens) if isinstance(item, Segments) else []
+    return segments_strokes(Seen(item, eye, pixels), lens, smooth) if isinstance(item, Segments) else []
 
 
 def _paint_floor(painter: QPainter, layers: _Layers, lens: Lens, camera: Camera, background: Color) -> None:
@@ -156,7 +157,7 @@ _EMPTY = Scene((), Color(1.0, 1.0, 1.0), np.array([[-1.0, -1.0, 0.0], [1.0, 1.0,
 class PainterRenderer(QWidget):
     """The widget that shows a scene with `paint_scene`; a `Renderer`.
 
-    While frames follow one another quickly the solids' edges are rough; they are smoothed when all is at rest.
+    While frames follow one another quickly the edges of solids and ghosts are rough; they are smoothed when all rests.
 
     Args:
         rest: how long nothing must have changed for that [s].

@@ -33,14 +33,17 @@ BoolArray = NDArray[np.bool_]
 
 _TUBE_WIDTH = 4.0  # from this width on a line is shaded like a tube
 _FINE = 5.0  # [pixels]
-_SHORT = 25  # points
+_SHORT, _MANY = 25, 200  # points
 _AXIS_WIDTH = 2.2
 
 
 def polyline_strokes(seen: Seen[Polyline], lens: Lens, solids: SolidPicture | None) -> list[Stroke]:
     """A polyline, less what the solids hide of it."""
+    before = lens.before(seen.eye)
+    if solids is None and len(before) < _MANY and before.all():
+        return [_line_stroke(float(seen.eye[:, 2].mean()), seen.pixels, seen.item)] if len(before) > 1 else []
     strokes = []
-    for eye in _runs(seen.eye, lens.before(seen.eye)):
+    for eye in _runs(seen.eye, before):
         thin = _thinned(eye, lens)
         fine = thin if solids is None else _subdivided(thin, lens)
         pixels = lens.pixels(fine)
@@ -49,7 +52,7 @@ def polyline_strokes(seen: Seen[Polyline], lens: Lens, solids: SolidPicture | No
             _line_stroke(float(fine[start:stop, 2].mean()), pixels[start:stop], seen.item)
             for start, stop in _spans(shown)
         ]
-    return strokes + _cut_strokes(seen, lens)
+    return strokes if before.all() else strokes + _cut_strokes(seen, lens)
 
 
 def _runs(eye: FloatArray, visible: BoolArray) -> Iterator[FloatArray]:
@@ -60,6 +63,8 @@ def _runs(eye: FloatArray, visible: BoolArray) -> Iterator[FloatArray]:
 
 def _spans(mask: BoolArray) -> list[tuple[int, int]]:
     """(start, stop) of each stretch of at least two that are True."""
+    if mask.all():
+        return [(0, len(mask))] if len(mask) > 1 else []
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8))).reshape(-1, 2)
     return [(int(start), int(stop)) for start, stop in edges if stop - start > 1]
 
@@ -78,7 +83,7 @@ def _subdivided(eye: FloatArray, lens: Lens) -> FloatArray:
 
 def _thinned(eye: FloatArray, lens: Lens) -> FloatArray:
     """Without the points that no eye can tell apart: about one a pixel of the line's length is enough."""
-    if len(eye) < 200:
+    if len(eye) < _MANY:
         return eye
     steps = np.cumsum(np.abs(np.diff(lens.pixels(eye), axis=0)).sum(axis=1))
     keep = np.concatenate([[True], np.diff(np.floor(0.7 * steps), prepend=0.0) > 0])
@@ -127,17 +132,20 @@ def _draw_tube(painter: QPainter, lines: list[QPolygonF], color: Color, width: f
     _draw_lines(painter, lit, shaded(color, 1.4), 0.28 * width, False)
 
 
-def segments_strokes(seen: Seen[Segments], lens: Lens) -> list[Stroke]:
-    """All pieces at once, as far away as the farthest of them."""
+def segments_strokes(seen: Seen[Segments], lens: Lens, smooth: bool = True) -> list[Stroke]:
+    """All pieces at once, as far away as the farthest of them; see-through ones with rough edges if not `smooth`."""
     pieces = clipped_pieces(seen.eye.reshape(-1, 2, 3), lens)
     if not len(pieces):
         return []
     lines = [QLineF(*piece) for piece in pieces.reshape(-1, 4).tolist()]
     color, width = seen.item.color, seen.item.width
+    rough = not smooth and color.alpha < 1.0  # what takes Qt six times as long
 
     def draw(painter: QPainter) -> None:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, not rough)
         painter.setPen(pen(color, width))
         painter.drawLines(lines)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
     return [Stroke(float(np.nanmax(seen.eye[:, 2])), draw)]
 

@@ -86,11 +86,9 @@ def _blurred(mask: NDArray[np.uint8]) -> FloatArray:
 def _box_blurred(values: FloatArray, axis: int) -> FloatArray:
     room = [(0, 0), (0, 0)]
     room[axis] = (_BLUR + 1, _BLUR)
-    sums = np.cumsum(np.pad(values, room), axis=axis)
-    size = values.shape[axis]
-    after = np.take(sums, range(2 * _BLUR + 1, 2 * _BLUR + 1 + size), axis=axis)
-    before = np.take(sums, range(size), axis=axis)
-    return np.asarray((after - before) / (2 * _BLUR + 1))
+    sums = np.moveaxis(np.cumsum(np.pad(values, room), axis=axis), axis, 0)
+    window = 2 * _BLUR + 1
+    return np.asarray(np.moveaxis(sums[window:] - sums[:-window], 0, axis) / window)
 
 
 def _tinted(values: FloatArray, color: Color) -> NDArray[np.uint8]:
