@@ -21,8 +21,10 @@ _MATHEMATICS = {
     **{sign: f"\\{name}" for sign, name in _GREEK.items()},
 }
 _SIGNS = {sign: f"\\ensuremath{{{latex}}}" for sign, latex in _MATHEMATICS.items()} | {
-    sign: f"\\{sign}" for sign in "&%#_"
+    sign: f"\\{sign}" for sign in "&%#_${}"
 }
+# What a user may have in the name of an arm or a joint.
+_SIGNS |= {"\\": "\\textbackslash{}", "~": "\\textasciitilde{}", "^": "\\textasciicircum{}"}
 
 
 def worked_latex(solution: WorkedSolution, path: Path | None = None) -> str:

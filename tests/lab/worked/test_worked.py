@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from latex2mathml.converter import convert
 
 from rvsim.files import load_robot, robot_names
 from rvsim.kinematics import forward_kinematics
@@ -292,6 +293,28 @@ def test_the_latex_is_a_whole_document_in_ascii_with_balanced_braces(name):
     assert depth == 0
     begun, ended = (re.findall(rf"\\{word}{{(\w+\*?)}}", text) for word in ("begin", "end"))
     assert sorted(begun) == sorted(ended)
+
+
+_ARGUMENT = r"(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\[a-zA-Z]+|\w)"
+_TWICE = re.compile(rf"\^{_ARGUMENT}\s*\^|_{_ARGUMENT}\s*_")  # LaTeX: double superscript, double subscript
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_every_line_of_the_latex_can_be_typeset(name):
+    robot = load_robot(name)
+    text = worked_latex(worked_solution(robot, forward_kinematics(robot, robot.home + 0.1)))
+    blocks = re.findall(r"\\begin\{align\*\}\n(.*?)\n\\end\{align\*\}", text, re.DOTALL)
+    assert blocks
+    for line in " \\\\\n".join(blocks).split(" \\\\\n"):
+        assert "<mi>\\" not in convert(line.replace("&=", "=", 1)), line  # an unknown command
+        assert not _TWICE.search(line), line
+        assert re.sub(r"\\begin\{(\w+)\}.*?\\end\{\1\}", "", line).count("&") == 1, line
+
+
+def test_a_name_of_the_users_own_breaks_no_latex():
+    robot = replace(load_robot("planar"), title="50 % \\ {R&D} #1_$^~")
+    text = worked_latex(worked_solution(robot, forward_kinematics(robot, robot.home)))
+    assert "50 \\% \\textbackslash{} \\{R\\&D\\} \\#1\\_\\$\\textasciicircum{}\\textasciitilde{}" in text
 
 
 def test_latex_of_one_way_has_only_its_steps():
