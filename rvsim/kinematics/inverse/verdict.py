@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rvsim.kinematics.forward import forward_kinematics
 from rvsim.kinematics.inverse.chain import TURN
-from rvsim.kinematics.inverse.continuum import is_continuum
-from rvsim.kinematics.inverse.copies import limit_copies, limit_margins
+from rvsim.kinematics.inverse.continuum import are_continua
+from rvsim.kinematics.inverse.copies import LimitCopies, limit_copies, limit_margins
 from rvsim.kinematics.inverse.result import Branch
 from rvsim.kinematics.inverse.task import POSE_ENTRIES, Candidates
 from rvsim.kinematics.jacobian import jacobian
@@ -47,36 +48,48 @@ def branches_of(robot: Robot, found: Candidates, here: FloatArray) -> list[Branc
     right = np.flatnonzero(residual <= RESIDUAL)
     # Of doubles, at a straight elbow for instance, one within the limits stands for both.
     right = right[np.lexsort((residual[right], ~copies.within[right]))]
+    return _branches(robot, found, copies, residual, _singles(robot, q, right.tolist()), rows, here)
+
+
+def _branches(
+    robot: Robot,
+    found: Candidates,
+    copies: LimitCopies,
+    residual: FloatArray,
+    kept: list[int],
+    rows: NDArray[np.intp],
+    here: FloatArray,
+) -> list[Branch]:
+    """The verdicts of those that are kept, worked out together."""
+    if not kept:
+        return []
+    q = copies.q[kept]
+    J = jacobian(robot, q)
+    sigma = np.linalg.svd(J, compute_uv=False).prod(axis=1)
+    margins, distances = limit_margins(robot, q), np.abs(q - here).max(axis=1)
+    endless = are_continua(robot, q, J, found.entries) | found.continuum
     return [
-        _branch(
-            robot, found, found.labels[rows[i]], copies.q[i], float(residual[i]), here, within=bool(copies.within[i])
+        Branch(
+            q=q[k],
+            label=found.labels[rows[i]],
+            within_limits=bool(copies.within[i]),
+            limit_margin=margins[k],
+            residual=float(residual[i]),
+            manipulability=float(sigma[k]),
+            distance=float(distances[k]),
+            continuum=bool(endless[k]),
         )
-        for i in _singles(robot, q, right.tolist())
+        for k, i in enumerate(kept)
     ]
-
-
-def _branch(
-    robot: Robot, found: Candidates, label: str, q: FloatArray, residual: float, here: FloatArray, *, within: bool
-) -> Branch:
-    sigma = np.linalg.svd(jacobian(robot, q), compute_uv=False)
-    return Branch(
-        q=q,
-        label=label,
-        within_limits=within,
-        limit_margin=limit_margins(robot, q),
-        residual=residual,
-        manipulability=float(sigma.prod()),
-        distance=float(np.abs(q - here).max()),
-        continuum=found.continuum or is_continuum(robot, q, found.entries),
-    )
 
 
 def _singles(robot: Robot, q: FloatArray, preferred: list[int]) -> list[int]:
     """Indices of the branches (b, n) without doubles, of doubles the preferred one, in the order of the labels."""
+    difference = q[:, None] - q
+    difference -= np.where(robot.is_revolute, TURN * np.rint(difference / TURN), 0.0)
+    same = (np.abs(difference).max(axis=2, initial=0.0) <= _SAME).tolist()
     kept: list[int] = []
     for i in preferred:
-        difference = q[kept] - q[i]
-        difference -= np.where(robot.is_revolute, TURN * np.rint(difference / TURN), 0.0)
-        if not (np.abs(difference).max(axis=1, initial=0.0) <= _SAME).any():
+        if not any(same[i][k] for k in kept):
             kept.append(i)
     return sorted(kept)
