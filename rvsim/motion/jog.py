@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rvsim.kinematics import jacobian
+from rvsim.kinematics.rates import tool_twist
 from rvsim.motion.jog_course import Course, JointMotion, ToolMotion, course_of
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -24,12 +24,13 @@ _REST = 2e-5  # [s at full speed]: so near to the end of a course is there; the 
 
 
 class JogStep(NamedTuple):
-    """Where a jog has come to: q (n,) [rad, m], the tool's twist (6,) at that moment [m/s, rad/s; base axes].
+    """Where a jog has come to: q (n,) [rad, m], its speeds qd (n,), the tool's twist (6,) [m/s, rad/s; base axes].
 
     `stopped_reason` is a sentence once the course has ended, else ""; `slowed_reason` says why it is not at full speed.
     """
 
     q: FloatArray
+    qd: FloatArray
     twist: FloatArray
     stopped_reason: str = ""
     slowed_reason: str = ""
@@ -75,7 +76,8 @@ class Jog:
         for _ in range(steps):
             self._step(speed_limits, course.end, dt / steps)
         self._q = course.at(self._way)
-        return JogStep(self._q, self._twist(course), self._stopped(), course.slowed(self._way))
+        qd = self._share * course.rates(self._q)
+        return JogStep(self._q, qd, tool_twist(self._robot, self._q, qd), self._stopped(), course.slowed(self._way))
 
     def _course_from(self, q: FloatArray) -> Course:
         if self._course is None or not np.allclose(q, self._q, rtol=0.0, atol=1e-12):
@@ -94,9 +96,6 @@ class Jog:
         self._way = min(self._way + 0.5 * (before + self._share) * dt, end)
         if end - self._way < _REST:
             self._share = 0.0
-
-    def _twist(self, course: Course) -> FloatArray:
-        return np.asarray(jacobian(self._robot, self._q) @ course.rates(self._q) * self._share)
 
     def _stopped(self) -> str:
         course = self._course

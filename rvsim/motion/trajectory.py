@@ -11,16 +11,30 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import ShapeError
-from rvsim.motion.laws import Moments, PiecewisePolynomial, cubic, quintic_between, spline_through, trapezoid
+from rvsim.motion.laws import (
+    Moments,
+    PiecewisePolynomial,
+    cubic,
+    quickest_along,
+    quintic_between,
+    spline_through,
+    trapezoid,
+)
 from rvsim.motion.tracking_result import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 Phase = Literal["approach", "path"]
-Law = Literal["quintic", "cubic", "trapezoid"]
+Law = Literal["quintic", "cubic", "trapezoid", "quickest"]
+LAW_TITLES: dict[Law, str] = {
+    "quintic": "Quintic: soft, no jump of acceleration",
+    "cubic": "Cubic: from rest to rest",
+    "trapezoid": "Trapezoid: even speed in the middle",
+    "quickest": "Quickest: always at a limit of some joint",
+}
 
 # From 0 to 1 in a second, at rest at both ends; the trapezoid speeds up for a quarter of the time.
-LAWS: dict[Law, PiecewisePolynomial] = {
+_SHAPES: dict[Law, PiecewisePolynomial] = {
     "quintic": quintic_between(0.0, 1.0, 0.0, 1.0),
     "cubic": cubic(0.0, 1.0, 0.0, 1.0),
     "trapezoid": trapezoid(0.0, 0.0, 1.0, 4.0 / 3.0, 16.0 / 3.0),
@@ -48,7 +62,7 @@ class Stretch:
         q: (k, n) the poses [rad, m].
         progress: (k,) the path index at each knot.
         phase: "approach" on the way to the path, "path" along it, or waiting on it.
-        law: how it speeds up and slows down, one of `LAWS`.
+        law: how it speeds up and slows down: from 0 to 1 in a second, one column.
     """
 
     duration: float
@@ -56,7 +70,7 @@ class Stretch:
     q: FloatArray
     progress: FloatArray
     phase: Phase = "path"
-    law: Law = "quintic"
+    law: PiecewisePolynomial = _SHAPES["quintic"]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "knots", frozen_array("knots", self.knots, (-1,)))
@@ -71,7 +85,7 @@ class Stretch:
     def at(self, t: FloatArray) -> Moments:
         """Joints (k, n) and their derivatives at times (k,) from its start [s]: the chain rule over way and law."""
         T = self.duration
-        s, sd, sdd, sddd = (value[:, 0] / T**k for k, value in enumerate(LAWS[self.law].at(t / T)))
+        s, sd, sdd, sddd = (value[:, 0] / T**k for k, value in enumerate(self.law.at(t / T)))
         q, q1, q2, q3 = self.way.at(s)
         sd, sdd, sddd = sd[:, None], sdd[:, None], sddd[:, None]
         # The two ends are met exactly; a sum of products would miss them by a rounding.
@@ -80,7 +94,7 @@ class Stretch:
 
     def fraction(self, t: float) -> float:
         """The fraction of the way that is done at a time from its start [s]."""
-        return 1.0 if t >= self.duration * (1.0 - 1e-12) else float(LAWS[self.law].q(t / self.duration)[0])
+        return 1.0 if t >= self.duration * (1.0 - 1e-12) else float(self.law.q(t / self.duration)[0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,7 +238,7 @@ def _move(
     robot: Robot, q0: ArrayLike, q1: ArrayLike, seconds: float | None, progress: float, phase: Phase, law: Law
 ) -> Stretch:
     ends = np.array([np.asarray(q0, dtype=np.float64), np.asarray(q1, dtype=np.float64)])
-    made = Stretch(1.0, np.array([0.0, 1.0]), ends, np.full(2, progress), phase, law)
+    made = _with_law(robot, Stretch(1.0, np.array([0.0, 1.0]), ends, np.full(2, progress), phase), law)
     shortest = _shortest_seconds(robot, made)
     calm = max(_SHORTEST_MOVE, shortest / _CALM)
     return replace(made, duration=calm if seconds is None else max(seconds, shortest, _SHORTEST_STRETCH))
@@ -242,8 +256,20 @@ def _along(tracking: Tracking, first: int, last: int, pace: float, law: Law) -> 
     if last == first:
         return []
     q = tracking.q[first : last + 1]
-    made = Stretch(1.0, _knots(tracking, first, last), q, np.arange(first, last + 1, dtype=np.float64), law=law)
+    made = Stretch(1.0, _knots(tracking, first, last), q, np.arange(first, last + 1, dtype=np.float64))
+    made = _with_law(tracking.robot, made, law)
     return [replace(made, duration=max((last - first) * pace, _shortest_seconds(tracking.robot, made)))]
+
+
+def _with_law(robot: Robot, stretch: Stretch, law: Law) -> Stretch:
+    """The quickest way is another one for each curve; where nothing limits or moves an arm it is the soft one."""
+    if law != "quickest":
+        return replace(stretch, law=_SHAPES[law])
+    moving = np.ptp(stretch.q, axis=0) > 0.0
+    limits = accelerations(robot)
+    if not moving.any() or not np.isfinite(limits[moving]).all():
+        return stretch
+    return replace(stretch, law=quickest_along(stretch.way, _speeds(robot), limits).in_one_second())
 
 
 def _knots(tracking: Tracking, first: int, last: int) -> FloatArray:
@@ -271,7 +297,7 @@ def _telling_times(stretch: Stretch) -> FloatArray:
     even = np.linspace(0.0, 1.0, _EVEN_SAMPLES)
     between = np.linspace(0.0, 1.0, 6)[:-1, None]
     ways = np.concatenate([(stretch.knots[:-1] + between * np.diff(stretch.knots)).ravel(), [1.0]])
-    times = np.interp(ways, LAWS[stretch.law].q(even)[:, 0], even)
+    times = np.interp(ways, stretch.law.q(even)[:, 0], even)
     return np.concatenate([even, times])
 
 

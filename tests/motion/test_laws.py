@@ -17,6 +17,7 @@ from rvsim.motion.laws import (
     cubic,
     jerk_limited,
     joined,
+    quickest_along,
     quintic_between,
     shortest_time,
     spline_through,
@@ -179,3 +180,27 @@ def test_what_makes_no_motion_is_refused_with_the_culprit() -> None:
         spline_through([0.0, 0.0], [[1.0], [2.0]])
     with pytest.raises(ShapeError):
         PiecewisePolynomial(np.array([0.0, 1.0]), np.zeros((2, 1, 1)))
+
+
+@given(st.lists(poses, min_size=4, max_size=6), limit_values, limit_values)
+def test_the_quickest_way_along_a_curve_is_always_at_a_limit_and_never_beyond(via, speed, acceleration) -> None:
+    way = spline_through(np.linspace(0.0, 1.0, len(via)), np.array(via) + np.linspace(0.0, 1.0, len(via))[:, None])
+    law = quickest_along(way, speed, acceleration)
+    assert (law.at(0.0).q[0], law.at(0.0).qd[0]) == (0.0, 0.0)
+    assert law.at(law.end).q[0] == pytest.approx(1.0)
+    times = law.breaks[:-1] + 1e-9
+    s, sd, sdd, _ = (value[:, 0] for value in law.at(times))
+    _, q1, q2, _ = way.at(s)
+    used_speed = np.abs(q1 * sd[:, None]) / speed
+    used_acceleration = np.abs(q2 * sd[:, None] ** 2 + q1 * sdd[:, None]) / acceleration
+    assert used_speed.max() <= 1.0 + 1e-6
+    assert np.quantile(used_acceleration.max(axis=1), 0.98) <= 1.02
+    busy = np.maximum(used_speed.max(axis=1), used_acceleration.max(axis=1))
+    assert np.median(busy) > 0.95
+
+
+def test_the_quickest_way_along_a_straight_line_is_the_trapezoid() -> None:
+    q0, q1, speed, acceleration = np.zeros(2), np.array([2.0, -1.0]), np.array([1.0, 1.0]), np.array([2.0, 3.0])
+    way = PiecewisePolynomial(np.array([0.0, 1.0]), np.array([[q0, q1 - q0]]))
+    law = quickest_along(way, speed, acceleration)
+    assert law.duration == pytest.approx(trapezoid(0.0, q0, q1, speed, acceleration).duration, rel=1e-3)

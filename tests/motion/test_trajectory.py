@@ -42,7 +42,7 @@ def test_no_joint_jumps_or_exceeds_its_speed(robot: str, path: str) -> None:
 
 
 @pytest.mark.parametrize(("robot", "path"), CASES)
-@pytest.mark.parametrize("law", ["quintic", "cubic", "trapezoid"])
+@pytest.mark.parametrize("law", ["quintic", "cubic", "trapezoid", "quickest"])
 def test_speeds_and_accelerations_are_derivatives_and_within_the_limits(robot: str, path: str, law: Law) -> None:
     tracking = tracked(robot, path)
     trajectory = trajectory_of(tracking, tracking.robot.home, law=law)
