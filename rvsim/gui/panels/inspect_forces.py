@@ -1,0 +1,293 @@
+"""The Forces page: pull at the tool, and see what the joints have to hold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, largest_force, payload_wrench
+from rvsim.gui.formula_view import EquationsView, Typesetter
+from rvsim.gui.panels.copying import CopyButton
+from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.panels.inspect_forces_table import TorqueModel, fit_table, show_weight, torque_table
+from rvsim.gui.panels.inspect_forces_words import (
+    AXES,
+    DIRECTIONS,
+    direction_vector,
+    largest_text,
+    legend,
+    ratings,
+    torque_equations,
+    torque_rows,
+)
+from rvsim.gui.panels.inspect_page import InspectPage
+from rvsim.gui.panels.number_row import NumberRow
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import Kind, display, format_quantity, moment_kind, torque_kind
+from rvsim.gui.quantity_box import QuantityBox
+from rvsim.gui.session import Session
+from rvsim.gui.stage import Stage
+from rvsim.gui.theme import set_role
+from rvsim.gui.widgets import button, column_of, combo, scrolled
+from rvsim.gui.wrench_drag import WrenchDrag
+from rvsim.kinematics import pose_and_jacobian
+from rvsim.lab.texts import NamedValue, values_latex, values_numpy, values_text
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.scene.wrench import WrenchArrows, arrow_scale, wrench_items
+
+_FORCES, _MOMENTS = ("fx", "fy", "fz"), ("mx", "my", "mz")
+_MEANING = (
+    "F is what the tool exerts, at the tool's origin. Drag the red dot at the tool to pull; with Ctrl in whole newtons."
+)
+_FORMULA_NOTE = "J of the tool in base axes; SI units: m, N, N m."
+
+
+@dataclass(frozen=True, eq=False)
+class Pull:
+    """What is asked of the arm: a wrench (6,) [N, N m] in `axes` ("base", "tool"), a payload [kg], its own weight."""
+
+    wrench: FloatArray = field(default_factory=lambda: np.zeros(6))
+    axes: str = "base"
+    payload: float = 0.0
+    own_weight: bool = False
+
+    def in_base(self, R_base_tool: FloatArray) -> FloatArray:
+        """(6,) in base axes, the payload's weight with it."""
+        wrench = self.wrench
+        if self.axes == "tool":
+            wrench = np.concatenate([R_base_tool @ wrench[:3], R_base_tool @ wrench[3:]])
+        return np.asarray(wrench + payload_wrench(self.payload, STANDARD_GRAVITY))
+
+
+class ForcesPage(InspectPage):
+    """τ = Jᵀ F, live."""
+
+    title = "Forces"
+    name = "inspect_forces"
+
+    def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
+        super().__init__(session, preferences, stage, parent)
+        self.pull = Pull()
+        self._robot: Robot | None = None
+        self._arrows: WrenchArrows | None = None
+        self._before_drag = self.pull
+        self._R: FloatArray = np.eye(3)
+        self._torques: FloatArray = np.zeros(0)
+        self.axes = combo("wrench_axes", "Axes of the wrench", AXES)
+        self.axes.activated.connect(lambda _: self._take_axes())
+        self.forces = self._row(_FORCES, "force", 0)
+        self.moments = self._row(_MOMENTS, "torque", 3)
+        self.payload = QuantityBox("mass", preferences, "Payload at the tool")
+        self.payload.setObjectName("payload")
+        self.payload.set_range(0.0, 1e4)
+        self.payload.quantity_changed.connect(lambda mass: self._take(payload=mass))
+        self.weight = QCheckBox("The arm holds its own weight too")
+        self.weight.setObjectName("own_weight")
+        self.weight.toggled.connect(lambda on: self._take(own_weight=on))
+        self.clear = button("wrench_clear", "No force", "Take the wrench and the payload away", self._clear)
+        self.model = TorqueModel(session.robot, preferences)
+        self.table = torque_table(self.model)
+        self.directions = combo("force_direction", "Direction of the largest force", DIRECTIONS)
+        self.directions.setCurrentIndex(self.directions.findData("+z"))
+        self.directions.activated.connect(lambda _: self.refresh())
+        self.legend, self.largest, self.message = wrapped_label("muted"), wrapped_label(), wrapped_label()
+        self.largest.setObjectName("largest_force")
+        self.equations = EquationsView(Typesetter(self))
+        makers = {"text": values_text, "NumPy": values_numpy, "LaTeX": values_latex}
+        formats = {name: (lambda make=make: make(self._values())) for name, make in makers.items()}
+        self.copy = CopyButton("torque_copy", "the joint torques", formats, session)
+        self.drag = WrenchDrag(stage.view, lambda: self._arrows, self)
+        self.drag.pulled.connect(self._on_pulled)
+        self.drag.lit.connect(lambda _: self._draw())
+        self.drag.released.connect(self._on_released)
+        self._lay_out()
+
+    # --- construction ----------------------------------------------------------------------------------------------
+
+    def _row(self, names: tuple[str, ...], kind: Kind, first: int) -> NumberRow:
+        row = NumberRow("wrench", names, (kind,) * 3, self._preferences, "Wrench")
+        row.edited.connect(lambda _: self._take_row(first, row.values))
+        row.refused.connect(self._complain)
+        return row
+
+    def _lay_out(self) -> None:
+        set_role(self.message, level="warning")
+        self.message.hide()
+        meaning = wrapped_label("muted")
+        meaning.setText(_MEANING)
+        carried = QHBoxLayout()
+        carried.addWidget(QLabel("Payload"))
+        carried.addWidget(self.payload, 1)
+        carried.addWidget(self.clear)
+        asked = QHBoxLayout()
+        asked.addWidget(_titled("Largest force along"))
+        asked.addWidget(self.directions, 1)
+        note = wrapped_label("muted")
+        note.setText(_FORMULA_NOTE)
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(12, 8, 12, 12)
+        column.setSpacing(6)
+        column.addLayout(_line(_titled("Wrench F"), self.axes))
+        for widget in (self.forces, self.moments):
+            column.addWidget(widget)
+        column.addLayout(carried)
+        column.addWidget(self.weight)
+        column.addWidget(meaning)
+        column.addSpacing(6)
+        column.addLayout(_line(_titled("Joint torques"), self.copy))
+        for shown in (self.table, self.legend, self.message):
+            column.addWidget(shown)
+        column.addSpacing(6)
+        column.addLayout(asked)
+        column.addWidget(self.largest)
+        column.addSpacing(6)
+        column.addWidget(self.equations)
+        column.addWidget(note)
+        column.addStretch(1)
+        column_of(self, scrolled(inside))
+
+    # --- what is asked ---------------------------------------------------------------------------------------------
+
+    def set_seen(self, seen: bool) -> None:
+        """The arrow can be taken hold of only while the page is seen."""
+        super().set_seen(seen)
+        self.drag.switch(seen)
+
+    def _take(self, **changes: object) -> None:
+        self.pull = replace(self.pull, **changes)  # type: ignore[arg-type]  # names and values come from this page alone
+        self.refresh()
+
+    def _take_row(self, first: int, values: FloatArray) -> None:
+        wrench = np.array(self.pull.wrench)
+        wrench[first : first + 3] = values
+        self._take(wrench=wrench)
+
+    def _take_axes(self) -> None:
+        """The same wrench, seen in other axes."""
+        axes = self.axes.currentData()
+        if axes != self.pull.axes:
+            R = self._R.T if axes == "tool" else self._R
+            wrench = np.concatenate([R @ self.pull.wrench[:3], R @ self.pull.wrench[3:]])
+            self._take(wrench=wrench, axes=axes)
+
+    def _clear(self) -> None:
+        self._take(wrench=np.zeros(6), payload=0.0)
+
+    def _on_pulled(self, force: FloatArray) -> None:
+        """The arrow's end has been dragged there: the payload's weight is a part of the arrow."""
+        force = force - payload_wrench(self.pull.payload, STANDARD_GRAVITY)[:3]
+        wrench = np.array(self.pull.wrench)
+        wrench[:3] = self._R.T @ force if self.pull.axes == "tool" else force
+        self._take(wrench=wrench)
+
+    def _on_released(self, given_up: bool) -> None:
+        if given_up:
+            self.pull = self._before_drag
+        self.refresh()
+
+    def _complain(self, sentence: str) -> None:
+        self.message.setText(sentence)
+        self.message.setVisible(bool(sentence))
+
+    # --- showing ---------------------------------------------------------------------------------------------------
+
+    def refresh(self) -> None:
+        """Show the torques of the present pose."""
+        robot, q = self._session.robot, self._session.q
+        if robot is not self._robot:
+            self._take_robot(robot)
+        self.message.hide()
+        T, J = pose_and_jacobian(robot, q)
+        self._R = T[:3, :3]
+        wrench = self.pull.in_base(self._R)
+        weight = gravity_torques(robot, q) if self._weighs() else np.zeros(robot.dof)
+        pushed = J.T @ wrench
+        self._torques = pushed + weight
+        self._show_boxes()
+        self.model.show_rows(robot, torque_rows(robot, pushed, weight))
+        self._show_largest(robot, q, weight)
+        self.equations.show_equations(torque_equations(J, wrench, pushed))
+        self._place_arrows(robot, T, wrench)
+
+    def _weighs(self) -> bool:
+        return self.pull.own_weight and bool(self._session.robot.masses)
+
+    def _take_robot(self, robot: Robot) -> None:
+        self._robot = robot
+        for box in self.moments.boxes:
+            box.set_kind(moment_kind(robot))
+        self.weight.setVisible(bool(robot.masses))
+        self.model.show_rows(robot, torque_rows(robot, np.zeros(robot.dof), np.zeros(robot.dof)))
+        self.legend.setText(legend(self.model.rows))
+        fit_table(self.table)
+
+    def _show_boxes(self) -> None:
+        self.forces.show_values(self.pull.wrench[:3])
+        self.moments.show_values(self.pull.wrench[3:])
+        self.payload.set_quantity(self.pull.payload)
+        show_weight(self.table, self.model, self._weighs())
+
+    def _show_largest(self, robot: Robot, q: FloatArray, weight: FloatArray) -> None:
+        asked = direction_vector(self.directions.currentData(), self.pull.wrench)
+        found, pure_moment = None, False
+        if asked is not None:
+            pure_moment = not np.any(asked[:3])
+            in_base = replace(self.pull, wrench=asked, payload=0.0).in_base(self._R)
+            found = largest_force(robot, q, in_base, ratings(robot), holding=weight)
+        self.largest.setText(largest_text(robot, found, pure_moment, self._preferences))
+
+    # --- the scene -------------------------------------------------------------------------------------------------
+
+    def _place_arrows(self, robot: Robot, T: FloatArray, wrench: FloatArray) -> None:
+        force, moment = wrench[:3], wrench[3:]
+        if self.drag.held and self._arrows is not None:
+            scale = self._arrows.scale  # the hand feels the same newtons a millimetre all the way
+        else:
+            self._before_drag = self.pull
+            scale = arrow_scale(robot.size, max(float(np.linalg.norm(force)), _typical_force(robot)))
+        kinds: tuple[Kind, Kind] = ("force", moment_kind(robot))
+        texts = [
+            format_quantity(float(np.linalg.norm(part)), kind, self._preferences) if np.any(part) else ""
+            for part, kind in zip((force, moment), kinds, strict=True)
+        ]
+        self._arrows = WrenchArrows(T[:3, 3], force, moment, scale, robot.size, *texts)
+        self._draw()
+
+    def _draw(self) -> None:
+        if self.seen and self._arrows is not None:
+            self.draw(wrench_items(self._arrows, self._stage.palette, lit=self.drag.lit_now))
+
+    # --- copying ---------------------------------------------------------------------------------------------------
+
+    def _values(self) -> list[NamedValue]:
+        robot = self._session.robot
+        units = (display(torque_kind(robot, i), self._preferences).suffix.strip() for i in range(robot.dof))
+        values = zip(robot.joint_names, self._torques.tolist(), units, strict=True)
+        return [NamedValue(f"tau_{i} ({name})", value, unit) for i, (name, value, unit) in enumerate(values, start=1)]
+
+
+def _typical_force(robot: Robot) -> float:
+    """Half of what a drive of this arm could push with at its full reach [N]: the arrow is of use from there on."""
+    rated = [joint.max_torque.value for joint in robot.joints if joint.max_torque and joint.revolute]
+    return 0.5 * max(rated, default=0.0) / robot.size or 5.0
+
+
+def _titled(text: str) -> QLabel:
+    label = QLabel(text)
+    set_role(label, role="title")
+    return label
+
+
+def _line(title: QLabel, *widgets: QWidget) -> QHBoxLayout:
+    """A title, what belongs to it at the right end."""
+    line = QHBoxLayout()
+    line.setSpacing(8)
+    line.addWidget(title)
+    line.addStretch(1)
+    for widget in widgets:
+        line.addWidget(widget)
+    return line

@@ -1,0 +1,173 @@
+"""The joint torques as a table, each with a bar that shows how much of its rating it takes."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QBrush, QColor, QPainter, QPalette, QPen
+from PySide6.QtWidgets import QHeaderView, QStyledItemDelegate, QStyleOptionViewItem, QTableView
+
+from rvsim.gui.panels.inspect_forces_words import TorqueRow, rating_text, share_text
+from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot, fit_height, plain_table
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import display, format_number, torque_kind
+from rvsim.robot import Robot
+
+_TOP = QModelIndex()
+_JOINT, _PUSHED, _HELD, _TOTAL, _BAR = range(5)
+_HEADS = ("joint", "from F", "weight", "τ", "of its rating")
+_TIPS = (
+    "The joint",
+    "JᵀF: what the wrench takes",
+    "g(q): what the arm's own weight takes",
+    "What the drive has to give",
+    "How much of the drive's torque rating that is",
+)
+_BAR_HEIGHT = 11.0
+
+
+class TorqueModel(QAbstractTableModel):
+    """One row a joint."""
+
+    def __init__(self, robot: Robot, preferences: Preferences) -> None:
+        super().__init__()
+        self._robot, self._preferences = robot, preferences
+        self._rows: tuple[TorqueRow, ...] = ()
+        self.brief = False  # J2 for the joint, where there is no room for its name
+
+    @property
+    def rows(self) -> tuple[TorqueRow, ...]:
+        """What is shown."""
+        return self._rows
+
+    def show_rows(self, robot: Robot, rows: tuple[TorqueRow, ...]) -> None:
+        """Show these rows of an arm."""
+        resets = len(rows) != len(self._rows) or robot is not self._robot
+        if resets:
+            self.beginResetModel()
+        self._robot, self._rows = robot, rows
+        if resets:
+            self.endResetModel()
+        else:
+            self.dataChanged.emit(self.index(0, 0), self.index(len(rows) - 1, _BAR))
+
+    def rowCount(self, parent: Index = _TOP) -> int:
+        """One a joint."""
+        return 0 if parent.isValid() else len(self._rows)
+
+    def columnCount(self, parent: Index = _TOP) -> int:
+        """Joint, parts, sum, bar."""
+        return 0 if parent.isValid() else len(_HEADS)
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """What stands in a cell; the bar's cell gives its text, and its row for the delegate."""
+        row, column = self._rows[index.row()], index.column()
+        match role:
+            case Qt.ItemDataRole.DisplayRole:
+                return self._text(index.row(), row, column)
+            case Qt.ItemDataRole.TextAlignmentRole:
+                return LEFT if column == _JOINT else RIGHT
+            case Qt.ItemDataRole.DecorationRole:
+                return dot(row.color) if column == _JOINT else None
+            case Qt.ItemDataRole.ToolTipRole:
+                return rating_text(row, self._robot, index.row(), self._preferences)
+            case Qt.ItemDataRole.UserRole:
+                return row
+        return None
+
+    def _text(self, joint: int, row: TorqueRow, column: int) -> str:
+        if column == _JOINT:
+            return f"J{joint + 1}" if self.brief else row.name
+        if column == _BAR:
+            return share_text(row)
+        value = {_PUSHED: row.from_wrench, _HELD: row.from_weight, _TOTAL: row.total}[column]
+        shown = display(torque_kind(self._robot, joint), self._preferences)
+        text = format_number(value * shown.factor, shown.decimals)
+        return text if self._common_unit() else text + shown.suffix
+
+    def _common_unit(self) -> str:
+        """The unit that all joints share, or nothing."""
+        units = {display(torque_kind(self._robot, i), self._preferences).suffix for i in range(len(self._rows))}
+        return units.pop().strip() if len(units) == 1 else ""
+
+    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """What a column is, with the unit where it is the same for all joints."""
+        if orientation == Qt.Orientation.Vertical:
+            return None
+        if role == Qt.ItemDataRole.DisplayRole:
+            return f"{_HEADS[section]} {self._common_unit()}".strip() if section == _TOTAL else _HEADS[section]
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return _TIPS[section]
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return LEFT if section == _JOINT else RIGHT
+        return None
+
+
+def torque_table(model: TorqueModel) -> QTableView:
+    """The view of a model."""
+    table = plain_table("torque_table", "Joint torques", model)
+    table.setItemDelegateForColumn(_BAR, BarDelegate(table))
+    table.setSelectionMode(QTableView.SelectionMode.NoSelection)
+    table.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    header = table.horizontalHeader()
+    header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+    header.setSectionResizeMode(_BAR, QHeaderView.ResizeMode.Stretch)
+    show_weight(table, model, False)
+    return table
+
+
+def show_weight(table: QTableView, model: TorqueModel, on: bool) -> None:
+    """With the arm's own weight there are two parts and their sum."""
+    model.brief = on
+    table.setColumnHidden(_PUSHED, not on)
+    table.setColumnHidden(_HELD, not on)
+
+
+def fit_table(table: QTableView) -> None:
+    """As high as its rows."""
+    fit_height(table)
+    table.setMinimumHeight(table.maximumHeight())
+
+
+class BarDelegate(QStyledItemDelegate):
+    """Draws the share of the rating from the middle to the left or right, its number beside it."""
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: Index) -> QSize:
+        """The column has a width of its own."""
+        return QSize(60, super().sizeHint(option, index).height())
+
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+        """Frame, bar, number."""
+        row: TorqueRow = index.data(Qt.ItemDataRole.UserRole)
+        painter.save()
+        cell, palette = QRectF(option.rect), option.palette
+        if index.row() % 2:
+            painter.fillRect(cell, palette.alternateBase())
+        room = option.fontMetrics.horizontalAdvance("≈ 000 %") + 8
+        frame = QRectF(cell.left() + 4, cell.center().y() - _BAR_HEIGHT / 2, cell.width() - room - 6, _BAR_HEIGHT)
+        if not math.isnan(row.share):
+            _paint_bar(painter, frame, row, palette)
+        over = not math.isnan(row.share) and abs(row.share) > 1.0
+        text = palette.color(QPalette.ColorRole.BrightText if over else QPalette.ColorRole.Text)
+        painter.setPen(text)
+        painter.drawText(cell.adjusted(0, 0, -6, 0), RIGHT, share_text(row))
+        painter.restore()
+
+
+def _paint_bar(painter: QPainter, frame: QRectF, row: TorqueRow, palette: QPalette) -> None:
+    half = frame.width() / 2
+    length = half * max(-1.0, min(1.0, row.share))
+    bar = QRectF(frame.center().x(), frame.top(), length, frame.height()).normalized()
+    painter.fillRect(bar, QColor(row.color))
+    if abs(row.share) > 1.0:
+        error = palette.color(QPalette.ColorRole.BrightText)
+        painter.fillRect(bar, QBrush(error, Qt.BrushStyle.BDiagPattern))
+    muted = palette.color(QPalette.ColorRole.PlaceholderText)
+    style = Qt.PenStyle.DashLine if row.rating_assumed else Qt.PenStyle.SolidLine
+    painter.setPen(QPen(muted, 1.0, style))
+    painter.drawRect(frame)
+    painter.setPen(QPen(muted, 1.0))
+    middle = QPointF(frame.center().x(), 0.0)
+    painter.drawLine(middle + QPointF(0.0, frame.top() - 1.0), middle + QPointF(0.0, frame.bottom() + 1.0))

@@ -1,0 +1,138 @@
+"""What the Forces page says: the formula with its numbers, the largest force, what a rating is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from rvsim.dynamics import LargestForce
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import format_quantity, moment_kind, torque_kind
+from rvsim.lab.worked import Equation
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+DIRECTIONS: Mapping[str, str] = {
+    "wrench": "the wrench above",
+    "+x": "+x", "-x": "\u2212x", "+y": "+y", "-y": "\u2212y", "+z": "+z", "-z": "\u2212z",
+}  # fmt: skip
+AXES: Mapping[str, str] = {"base": "in base axes", "tool": "in tool axes"}
+_DECIMALS = 2
+_UNIT_VECTORS = dict(zip("xyz", np.eye(3), strict=True))
+
+
+class TorqueRow(NamedTuple):
+    """One joint of the table [N m, N]; rating nan where none is known."""
+
+    name: str
+    color: str
+    from_wrench: float
+    from_weight: float
+    rating: float
+    rating_assumed: bool
+    rating_source: str
+
+    @property
+    def total(self) -> float:
+        """What the drive has to give."""
+        return self.from_wrench + self.from_weight
+
+    @property
+    def share(self) -> float:
+        """Of the rating, with the torque's sign; nan where none is known."""
+        return self.total / self.rating
+
+
+def torque_rows(robot: Robot, from_wrench: FloatArray, from_weight: FloatArray) -> tuple[TorqueRow, ...]:
+    """One row a joint."""
+    rows = []
+    for joint, pushed, held in zip(robot.joints, from_wrench.tolist(), from_weight.tolist(), strict=True):
+        known = joint.max_torque
+        rating = (known.value, known.assumed, known.source) if known else (math.nan, False, "")
+        rows.append(TorqueRow(joint.name, joint.color, pushed, held, *rating))
+    return tuple(rows)
+
+
+def ratings(robot: Robot) -> FloatArray:
+    """(n,) the torque each drive may give [N m, N]; inf where nobody says."""
+    return np.array([joint.max_torque.value if joint.max_torque else math.inf for joint in robot.joints])
+
+
+def direction_vector(name: str, wrench: FloatArray) -> FloatArray | None:
+    """(6,) the direction of that name in the axes of the wrench (6,); None where the wrench is none."""
+    if name == "wrench":
+        return wrench if np.any(wrench) else None
+    sign = 1.0 if name[0] == "+" else -1.0
+    return np.concatenate([sign * _UNIT_VECTORS[name[1]], np.zeros(3)])
+
+
+def largest_text(robot: Robot, found: LargestForce | None, pure_moment: bool, preferences: Preferences) -> str:
+    """The answer to "how strongly can it push that way?"."""
+    if found is None:
+        return "There is no wrench above: enter one, or choose a direction."
+    if found.joint is None:
+        known = [joint.max_torque for joint in robot.joints if joint.max_torque]
+        if not known:
+            return "No joint of this arm has a torque rating: its robot file may give some (max_torque)."
+        return "No bound: at this pose no rated joint has a lever in that direction, the bearings hold it all."
+    joint = robot.joints[found.joint]
+    rating = joint.max_torque
+    assert rating is not None, "only a rated joint limits"
+    limit = format_quantity(rating.value, torque_kind(robot, found.joint), preferences)
+    assumed = ", an assumed rating" if rating.assumed else ""
+    if found.force == 0.0:
+        return f"None: “{joint.name}” is at its {limit} already{assumed}."
+    amount = format_quantity(found.force, moment_kind(robot) if pure_moment else "force", preferences)
+    return f"{amount}: then “{joint.name}” reaches its {limit}{assumed}."
+
+
+def rating_text(row: TorqueRow, robot: Robot, joint: int, preferences: Preferences) -> str:
+    """A row in a sentence."""
+    kind = torque_kind(robot, joint)
+    total = f"{row.name}: {format_quantity(row.total, kind, preferences)}"
+    if math.isnan(row.rating):
+        return f"{total}. No rating is known."
+    origin = "assumed: " if row.rating_assumed else ""
+    rating = format_quantity(row.rating, kind, preferences)
+    return f"{total}, {share_text(row)} of {rating} ({origin}{row.rating_source or 'robot file'})."
+
+
+def share_text(row: TorqueRow) -> str:
+    """37 %, or ≈ 37 % of an assumed rating, or a dash."""
+    if math.isnan(row.share):
+        return "\u2013"
+    text = f"{100.0 * abs(row.share):.0f} %"
+    return f"≈ {text}" if row.rating_assumed else text
+
+
+def legend(rows: tuple[TorqueRow, ...]) -> str:
+    """What the bars mean."""
+    parts = []
+    if any(not math.isnan(row.rating) for row in rows):
+        parts.append("Bar: share of the rating, left negative, right positive.")
+    if any(row.rating_assumed for row in rows):
+        parts.append("≈ and a dashed frame: the rating is assumed.")
+    if any(math.isnan(row.rating) for row in rows):
+        parts.append("\u2013: no rating is known.")
+    return " ".join(parts)
+
+
+def torque_equations(J: FloatArray, wrench: FloatArray, torques: FloatArray) -> tuple[Equation, ...]:
+    """τ = JᵀF with the numbers of the pose: J (6, n), wrench (6,), torques (n,), SI."""
+    numbers = f"{_matrix(J.T, 1)} {_matrix(wrench[:, None], 3)}"
+    return (Equation("\\tau", "J^T F", numbers, _matrix(torques[:, None], 3)),)
+
+
+def _matrix(values: FloatArray, whole: int) -> str:
+    rows = [" & ".join(_entry(value, whole) for value in row) for row in values.tolist()]
+    return "\\begin{bmatrix} " + " \\\\ ".join(rows) + " \\end{bmatrix}"
+
+
+def _entry(value: float, whole: int) -> str:
+    """A number with places for its sign and for so many digits, so that other numbers have the same shape."""
+    text = f"{abs(value):.{_DECIMALS}f}"
+    sign = "{-}" if value < 0.0 and float(text) != 0.0 else "\\phantom{-}"
+    return sign + "\\phantom{0}" * (whole - text.index(".")) + text

@@ -1,0 +1,167 @@
+"""The Forces page: what is asked at the tool and what the joints hold, by boxes, by the hand in the scene, and back."""
+
+import math
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QTableView
+
+from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, joint_torques, wrench_in_base
+from rvsim.gui.app import build_window
+from rvsim.gui.panels.inspect_forces import ForcesPage
+from rvsim.gui.quantity_box import QuantityBox
+from rvsim.kinematics import forward_kinematics
+
+POSE = np.radians([30.0, 40.0, -50.0, 20.0, 60.0])
+
+
+@pytest.fixture
+def page_of(qtbot, preferences):
+    def make(name, pose=None):
+        window = build_window(preferences, robot=name, renderer="painter")
+        qtbot.addWidget(window)
+        window.resize(1200, 800)
+        page = ForcesPage(window.session, preferences, window.stage, window)
+        if pose is not None:
+            assert window.session.move_to(pose, "Plot")
+        page.set_seen(True)
+        return page
+
+    return make
+
+
+def enter(page, name, value):
+    box = page.findChild(QuantityBox, name)
+    box.setValue(value)
+
+
+def torques(page):
+    return np.array([row.total for row in page.model.rows])
+
+
+def test_the_table_shows_what_the_wrench_takes(page_of):
+    page = page_of("rv-m1", POSE)
+    wrench = np.array([5.0, -3.0, 12.0, 0.4, -0.2, 0.1])
+    for name, value in zip(("fx", "fy", "fz", "mx", "my", "mz"), wrench, strict=True):
+        enter(page, f"wrench_{name}", value)
+    session = page._session
+    np.testing.assert_allclose(torques(page), joint_torques(session.robot, session.q, wrench), atol=1e-12)
+    table = page.findChild(QTableView, "torque_table")
+    shown = table.model().index(1, 3).data()
+    assert shown == f"{torques(page)[1]:.2f}".replace("-", "\u2212")
+    assert session.move_to(POSE + 0.1, "Plot")
+    np.testing.assert_allclose(torques(page), joint_torques(session.robot, session.q, wrench), atol=1e-12)
+
+
+def test_other_axes_show_the_same_wrench_in_other_numbers(page_of):
+    page = page_of("rv-m1", POSE)
+    enter(page, "wrench_fz", 10.0)
+    before = torques(page)
+    page.axes.setCurrentIndex(page.axes.findData("tool"))
+    page.axes.activated.emit(page.axes.currentIndex())
+    np.testing.assert_allclose(torques(page), before, atol=1e-12)
+    session = page._session
+    np.testing.assert_allclose(
+        wrench_in_base(session.robot, session.q, page.pull.wrench), [0, 0, 10, 0, 0, 0], atol=1e-9
+    )
+    assert session.move_to(np.zeros(5), "Zero")  # now the wrench turns with the tool
+    in_base = wrench_in_base(session.robot, session.q, page.pull.wrench)
+    np.testing.assert_allclose(torques(page), joint_torques(session.robot, session.q, in_base), atol=1e-12)
+
+
+def test_a_payload_and_the_own_weight_are_added(page_of):
+    page = page_of("ur5e")
+    enter(page, "payload", 2.0)
+    page.weight.setChecked(True)
+    session = page._session
+    expected = gravity_torques(session.robot, session.q, payload=2.0)
+    np.testing.assert_allclose(torques(page), expected, atol=1e-9)
+    page.clear.click()
+    np.testing.assert_allclose(torques(page), gravity_torques(session.robot, session.q), atol=1e-9)
+    assert page.payload.quantity == 0.0
+
+
+def test_an_arm_without_masses_offers_no_weight_and_names_its_sliding_joint_in_newtons(page_of):
+    page = page_of("rrrp")
+    enter(page, "wrench_fz", 5.0)
+    assert page.weight.isHidden()
+    assert page.model.index(3, 3).data() == "5.0 N"
+    assert page.model.index(0, 3).data().endswith(" N unit")
+    assert "No joint of this arm has a torque rating" in page.largest.text()
+
+
+def test_the_largest_force_names_the_joint_that_limits_it(page_of):
+    page = page_of("rv-m1", np.zeros(5))
+    robot = page._session.robot
+    # At q = 0 the wrist pitch holds fz with d5 = 72 mm of lever, and is rated for 2 N m.
+    assert page.largest.text() == f"{2.0 / 0.072:.1f} N: then “wrist pitch” reaches its 2.00 N m, an assumed rating."
+    assert robot.joints[3].max_torque.value == 2.0
+
+
+def test_hidden_pages_draw_nothing_and_leave_the_pointer_alone(page_of):
+    page = page_of("rv-m1")
+    view, drag = page._stage.view, page.drag
+    assert view.grabber is drag
+    page.set_seen(False)
+    assert view.grabber is not drag
+    assert page._stage._layers["inspect_forces"] == ()
+
+
+def pixel_of(page, point):
+    view = page._stage.view
+    x, y, _ = view.camera.project(np.asarray(point)[None], view.width(), view.height())[0]
+    return QPointF(float(x), float(y))
+
+
+def test_dragging_the_arrows_end_changes_the_force_in_the_plane_that_faces_the_eye(page_of):
+    page = page_of("ur5e")
+    drag, view = page.drag, page._stage.view
+    enter(page, "wrench_fx", 60.0)
+    arrows = page._arrows
+    start, normal = pixel_of(page, arrows.tip), view.camera.axes[2]
+    drag.hover(start)
+    assert drag.lit_now
+    assert drag.press(start)
+    drag.drag(start + QPointF(40.0, -60.0), Qt.KeyboardModifier.NoModifier)
+    change = page.pull.wrench[:3] - [60.0, 0.0, 0.0]
+    assert np.linalg.norm(change) > 5.0
+    assert abs(change @ normal) < 1e-9 * np.linalg.norm(change)
+    moved = pixel_of(page, page._arrows.tip)
+    assert math.hypot(moved.x() - start.x() - 40.0, moved.y() - start.y() + 60.0) < 1e-6
+    drag.release()
+    assert not drag.held
+
+
+def test_a_drag_pulls_a_force_out_of_the_tool_and_escape_takes_it_back(page_of):
+    page = page_of("rv-m1")
+    at = pixel_of(page, forward_kinematics(page._session.robot, page._session.q)[:3, 3])
+    assert page.drag.press(at)
+    page.drag.drag(at + QPointF(0.0, -80.0), Qt.KeyboardModifier.ControlModifier)
+    assert np.any(page.pull.wrench)
+    np.testing.assert_array_equal(page.pull.wrench, np.round(page.pull.wrench))
+    assert page.drag.key(Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier, False)
+    assert not np.any(page.pull.wrench)
+    assert not page.drag.press(at + QPointF(0.0, -300.0))
+
+
+def test_the_dragged_arrow_holds_the_payload_too(page_of):
+    page = page_of("rv-m1")
+    enter(page, "payload", 1.2)
+    tip = pixel_of(page, page._arrows.tip)
+    assert page.drag.press(tip)
+    page.drag.drag(tip, Qt.KeyboardModifier.NoModifier)
+    page.drag.release()
+    np.testing.assert_allclose(page.pull.wrench, 0.0, atol=1e-6)
+    np.testing.assert_allclose(page._arrows.force, [0.0, 0.0, 1.2 * STANDARD_GRAVITY], atol=1e-6)
+
+
+def test_copies_name_joint_and_unit(page_of):
+    page = page_of("rv-m1")
+    enter(page, "wrench_fz", 10.0)
+    page.copy.copy_as("text")
+    lines = QGuiApplication.clipboard().text().splitlines()
+    assert len(lines) == 5
+    assert lines[1].startswith("tau_2 (shoulder)")
+    assert lines[1].endswith(" N m")
