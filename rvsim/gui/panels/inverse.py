@@ -51,7 +51,7 @@ class TargetSection(QWidget):
         self.solver = combo("ik_solver_selector", "Who solves")
         self.solver.activated.connect(lambda _: control.set_solver(self.solver.currentData()))
         tip = "Read a 4 × 4 matrix, or 3 × 3 and a position, from the clipboard or from what you type"
-        self.paste = button("paste_matrix_button", "Paste matrix…", tip, self.ask_matrix)
+        self.paste = button("paste_matrix_button", "Paste…", tip, self.ask_matrix)
         self.at_tool = button(
             "target_at_tool_button", "To the tool", "Take the tool's own pose", control.target_at_tool
         )
@@ -66,18 +66,15 @@ class TargetSection(QWidget):
         rows.addRow("Solver", self.solver)
         tools = QHBoxLayout()
         tools.setSpacing(6)
-        title = QLabel("Target")
-        set_role(title, role="title")
-        tools.addWidget(title, 1)
+        tools.addWidget(self.notation, 1)
         tools.addWidget(self.paste)
         tools.addWidget(self.at_tool)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
         column.addLayout(rows)
-        column.addLayout(tools)
         column.addWidget(self.position)
-        column.addWidget(self.notation)
+        column.addLayout(tools)
         column.addWidget(self.angles)
 
     def show_offer(self) -> None:
