@@ -1,0 +1,292 @@
+"""The sources page: what a source prints of this arm that is not right, its number here, ours, and why."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
+
+from rvsim.gui.formula_view import EquationsView, Typesetter
+from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.panels.inspect_page import InspectPage
+from rvsim.gui.panels.inspect_source_grid import Grid, MakeSheet
+from rvsim.gui.panels.inspect_source_scene import printed_tool_items
+from rvsim.gui.panels.inspect_source_words import (
+    REMARK,
+    TOPIC_TITLES,
+    Sheet,
+    drawn_sentence,
+    heading,
+    nothing_known,
+    sheets,
+    shown_as,
+    verdict,
+)
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.session import Session
+from rvsim.gui.stage import Stage
+from rvsim.gui.theme import set_role
+from rvsim.gui.widgets import button, column_of, combo, scrolled
+from rvsim.kinematics import forward_kinematics
+from rvsim.lab.sources import Comparison, Erratum, Topic, errata, topics
+from rvsim.lab.worked import Equation
+from rvsim.robot import Robot
+from rvsim.spatial import rotation_error_angle
+
+_SEEN_ROWS = 7  # of the list, before it scrolls
+_ALL = ""
+
+
+class SourcePage(InspectPage):
+    """Shows one erratum at the present pose, chosen from the list of the arm's."""
+
+    title = "Sources"
+    name = "inspect_source"
+
+    def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
+        super().__init__(session, preferences, stage, parent)
+        self._robot: Robot | None = None
+        self._entries: tuple[Erratum, ...] = ()
+        self.topics = combo("source_topics", "Topic of the errata")
+        self.topics.currentIndexChanged.connect(lambda _: self._offer_entries())
+        self.list = QListWidget()
+        self.list.setObjectName("source_errata")
+        self.list.setAccessibleName("What the sources print wrongly")
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
+        self.list.currentItemChanged.connect(lambda *_: self._refresh_if_seen())
+        self.nothing = wrapped_label("muted")
+        self.nothing.setObjectName("source_nothing")
+        self.detail = ErratumView(session, self)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(12, 8, 12, 12)
+        column.setSpacing(8)
+        for widget in (self.topics, self.list, self.nothing, self.detail):
+            column.addWidget(widget)
+        column.addStretch(1)
+        column_of(self, scrolled(inside))
+
+    @property
+    def chosen(self) -> Erratum | None:
+        """The erratum that is shown."""
+        item = self.list.currentItem()
+        found = None if item is None else item.data(Qt.ItemDataRole.UserRole)
+        return found if isinstance(found, Erratum) else None
+
+    def choose(self, key: str) -> None:
+        """Show another erratum of this arm, whatever topic is chosen."""
+        self._offer_robot(self._session.robot)
+        self.topics.setCurrentIndex(0)
+        for row in range(self.list.count()):
+            entry = self.list.item(row).data(Qt.ItemDataRole.UserRole)
+            if isinstance(entry, Erratum) and entry.key == key:
+                self.list.setCurrentRow(row)
+
+    def refresh(self) -> None:
+        """Show the chosen erratum at the present pose."""
+        robot, q = self._session.robot, self._session.q
+        self._offer_robot(robot)
+        entry = self.chosen
+        self.detail.setVisible(entry is not None)
+        if entry is None:
+            self.draw(())
+            return
+        self.detail.show_entry(entry, entry.compare(robot, q), robot, self._preferences)
+        self._draw_tool(entry, robot)
+
+    def _draw_tool(self, entry: Erratum, robot: Robot) -> None:
+        T = entry.printed_tool(robot, self._session.q)
+        tool = forward_kinematics(robot, self._session.q)
+        distance = turned = 0.0
+        if T is not None:
+            T = T @ robot.T_flange_tool
+            distance, turned = float(np.linalg.norm(T[:3, 3] - tool[:3, 3])), _angle_between(T, tool)
+        if T is None or max(distance, turned) < 1e-9:
+            self.draw(())
+            self.detail.say_drawn("")
+            return
+        title = f"{entry.source} {entry.where}"
+        self.draw(printed_tool_items(T, tool, title, robot.size, self._stage.palette))
+        self.detail.say_drawn(drawn_sentence(distance, turned, shown_as(robot, self._preferences)))
+
+    # --- the list --------------------------------------------------------------------------------------------------
+
+    def _offer_robot(self, robot: Robot) -> None:
+        if robot is self._robot:
+            return
+        self._robot, self._entries = robot, errata(robot)
+        with QSignalBlocker(self.topics):
+            kept = self.topics.currentData()
+            self.topics.clear()
+            self.topics.addItem(f"All {len(self._entries)} errata", _ALL)
+            for topic in topics(robot):
+                self.topics.addItem(TOPIC_TITLES[topic], topic)
+            self.topics.setCurrentIndex(max(self.topics.findData(kept), 0))
+        for widget in (self.topics, self.list):
+            widget.setVisible(bool(self._entries))
+        self.nothing.setVisible(not self._entries)
+        self.nothing.setText("" if self._entries else nothing_known(robot))
+        self._offer_entries()
+
+    def _offer_entries(self) -> None:
+        """The errata of the chosen topic under their topics; the same one stays chosen where it is there still."""
+        kept, topic = self.chosen, self.topics.currentData()
+        with QSignalBlocker(self.list):
+            self.list.clear()
+            for group in dict.fromkeys(entry.topic for entry in self._in_order()):
+                if topic in (_ALL, group):
+                    self._add_group(group, with_head=topic == _ALL)
+            self._choose_again(kept)
+        self._fit_list()
+        self._refresh_if_seen()
+
+    def _in_order(self) -> list[Erratum]:
+        order = list(TOPIC_TITLES)
+        return sorted(self._entries, key=lambda entry: order.index(entry.topic))
+
+    def _add_group(self, topic: Topic, *, with_head: bool) -> None:
+        if with_head:
+            head = QListWidgetItem(TOPIC_TITLES[topic])
+            head.setFlags(Qt.ItemFlag.NoItemFlags)
+            self.list.addItem(head)
+        for entry in (entry for entry in self._entries if entry.topic == topic):
+            item = QListWidgetItem(f"{entry.where}   {entry.title}")
+            item.setData(Qt.ItemDataRole.UserRole, entry)
+            item.setToolTip(f"{heading(entry)}: {entry.title}")
+            self.list.addItem(item)
+
+    def _choose_again(self, kept: Erratum | None) -> None:
+        entries = [self.list.item(row).data(Qt.ItemDataRole.UserRole) for row in range(self.list.count())]
+        rows = [row for row, entry in enumerate(entries) if isinstance(entry, Erratum)]
+        same = [row for row in rows if kept is not None and entries[row] is kept]
+        if rows:
+            self.list.setCurrentRow((same or rows)[0])
+
+    def _fit_list(self) -> None:
+        rows = min(self.list.count(), _SEEN_ROWS)
+        self.list.setFixedHeight(max(self.list.sizeHintForRow(0), 1) * rows + 2 * self.list.frameWidth() + 2)
+
+
+def _angle_between(T: np.ndarray, tool: np.ndarray) -> float:
+    """The angle between two rotations [rad]; half a turn for one that is a mirror."""
+    if np.linalg.det(T[:3, :3]) < 0.0:
+        return np.pi
+    return float(rotation_error_angle(T[:3, :3], tool[:3, :3]))
+
+
+class ErratumView(QWidget):
+    """One erratum: the formulas, why, and the numbers of a pose."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._entry: Erratum | None = None
+        typesetter = Typesetter(self)
+        self.heading, self.why = wrapped_label("title"), wrapped_label()
+        self.printed, self.right = EquationsView(typesetter), EquationsView(typesetter)
+        self.right_head = _small("right")
+        self.verdict, self.units, self.drawn = wrapped_label(), wrapped_label("muted"), wrapped_label("muted")
+        for label, part in ((self.heading, "heading"), (self.why, "why"), (self.verdict, "verdict"),
+                            (self.drawn, "drawn")):  # fmt: skip
+            label.setObjectName(f"source_{part}")
+        self.grids = tuple(Grid(f"source_grid_{index}") for index in range(3))
+        self.titles = tuple(_small("") for _ in self.grids)
+        tip = "Go to the pose at which this shows, as in the text; undo brings the present one back"
+        self.to_pose = button("source_pose", "Pose of the text", tip, self._go)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        here = QHBoxLayout()
+        self.here = QLabel("At the present pose")
+        set_role(self.here, role="title")
+        here.addWidget(self.here, 1)
+        here.addWidget(self.to_pose)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(6)
+        for widget in (self.heading, _small("printed"), self.printed, self.right_head, self.right, self.why):
+            column.addWidget(widget)
+        column.addLayout(here)
+        for title, grid in zip(self.titles, self.grids, strict=True):
+            column.addWidget(title)
+            column.addWidget(grid)
+        for label in (self.verdict, self.units, self.drawn):
+            column.addWidget(label)
+
+    def show_entry(self, entry: Erratum, comparison: Comparison | None, robot: Robot, preferences: Preferences) -> None:
+        """Show an erratum and, where it has numbers, the comparison at the present pose."""
+        if entry is not self._entry:
+            self._show_formulas(entry)
+        self.to_pose.setEnabled(not np.allclose(self._session.q, entry.pose, atol=1e-9))
+        self.to_pose.setVisible(comparison is not None)
+        self.here.setVisible(comparison is not None)
+        if comparison is None:
+            self._show_remark()
+            return
+        shown = shown_as(robot, preferences)
+        made = sheets(entry, comparison, shown)
+        for index, (title, grid) in enumerate(zip(self.titles, self.grids, strict=True)):
+            seen = index < len(made.sheets)
+            grid.setVisible(seen)
+            title.setVisible(seen and bool(made.sheets[index][0]))
+            if seen:
+                _set_text(title, made.sheets[index][0].lower())
+                grid.show_sheet(f"{heading(entry)}: {made.sheets[index][0] or 'numbers'}", _maker(
+                    index, entry, comparison, robot, preferences))  # fmt: skip
+        self._say(*verdict(entry, comparison, shown), made.units)
+
+    def say_drawn(self, text: str) -> None:
+        """What is drawn in the scene."""
+        _set_text(self.drawn, text)
+        self.drawn.setVisible(bool(text))
+
+    def _show_formulas(self, entry: Erratum) -> None:
+        self._entry = entry
+        self.heading.setText(f"{heading(entry)}: {entry.title}")
+        self.why.setText(entry.why)
+        self.printed.show_equations([Equation(line, "", "", "") for line in entry.printed_latex])
+        self.right.show_equations([Equation(line, "", "", "") for line in entry.right_latex])
+        for widget in (self.right_head, self.right):
+            widget.setVisible(bool(entry.right_latex))
+
+    def _show_remark(self) -> None:
+        for widget in (*self.grids, *self.titles):
+            widget.setVisible(False)
+        self._say(REMARK, "", "")
+
+    def _say(self, text: str, level: str, units: str) -> None:
+        _set_text(self.verdict, text)
+        set_role(self.verdict, level=level)
+        self.verdict.setVisible(bool(text))
+        _set_text(self.units, units)
+        self.units.setVisible(bool(units))
+
+    def _go(self) -> None:
+        if self._entry is not None:
+            self._session.move_to(self._entry.pose, f"Pose of {heading(self._entry).lower()}")
+
+
+def _maker(
+    index: int, entry: Erratum, comparison: Comparison, robot: Robot, preferences: Preferences
+) -> MakeSheet:
+    """Makes that table of the comparison with fewer decimals."""
+
+    def make(fewer: int) -> Sheet:
+        return sheets(entry, comparison, shown_as(robot, preferences, fewer=fewer)).sheets[index][1]
+
+    return make
+
+
+def _small(text: str) -> QLabel:
+    label = QLabel(text)
+    set_role(label, role="muted")
+    return label
+
+
+def _set_text(label: QLabel, text: str) -> None:
+    if label.text() != text:
+        label.setText(text)
