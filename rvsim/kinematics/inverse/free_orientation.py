@@ -35,7 +35,7 @@ def place_branches(form: SixAxis, T: FloatArray, near: FloatArray) -> FloatArray
     missing = np.isnan(q).any(axis=1)
     if missing.any():
         q[missing] = _turned_branches(form, T, near)[missing]
-    if not limit_copies(form.chain.robot, q, near).within.any():
+    if not np.isnan(q).all() and not limit_copies(form.chain.robot, q, near).within.any():
         _put_within_limits(form, T, near, q)
     return q
 
