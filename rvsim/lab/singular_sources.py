@@ -53,11 +53,11 @@ def minors(robot: Robot, q: ArrayLike) -> tuple[Minor, ...]:
     J = position_jacobian(robot, q)
     return tuple(
         Minor(name, columns, formula, float(np.linalg.det(J[:, [column - 1 for column in columns]])))
-        for name, columns, formula in _MINORS
+        for name, columns, formula in MINORS
     )
 
 
-_MINORS = (
+MINORS = (
     (r"\det\hat J_1", (1, 2, 3), r"-r\,a_2\,(a_3 s_3 + d_5 s_{34})"),
     (r"\det\hat J_2", (1, 2, 4), r"-r\,d_5\,(a_2 s_{34} + a_3 s_4)"),
     (r"\det\hat J_3", (1, 3, 4), r"-r\,a_3\,d_5\,s_4"),
