@@ -178,10 +178,12 @@ class Cylindrical(ClosedForm):
         x, y, z = S[:, 3]
         ox, oy = self.outward[:2]
         offset = self.origin[0] * oy - self.origin[1] * ox
-        waist = solve_waist(x, y, 0.0 if is_zero(offset) else float(offset), self.chain.size, float(free[0]))
+        azimuth = math.atan2(oy, ox)
+        offset = 0.0 if is_zero(offset) else float(offset)
+        waist = solve_waist(x, y, offset, self.chain.size, float(free[0]) + azimuth)
         q = empty_rows(2, 3, x.size)
         for branch, side in zip(q, waist.sides, strict=True):
-            branch[0] = side.theta1 - math.atan2(oy, ox)
+            branch[0] = side.theta1 - azimuth
             branch[1] = z - self.origin[2]
             branch[2] = side.out - (self.origin[0] * ox + self.origin[1] * oy)
         erase(q, waist.missing)

@@ -233,8 +233,9 @@ def solve_cylindrical(book: Notebook, T: FloatArray) -> None:
     origin, outward = rows.place((0.0, 0.0, 0.0)), rows.place((0.0, 0.0, 1.0)) - rows.place((0.0, 0.0, 0.0))
     offset = float(origin[0] * outward[1] - origin[1] * outward[0])
     names = _CYLINDRICAL if rows.sine[0] > 0.0 else _CYLINDRICAL[::-1]
-    waist = write_waist(book, (x, y), "tool", Quantity("d", 0.0 if abs(offset) <= 1e-9 else offset), names)
     lead = Quantity("\\delta", math.atan2(outward[1], outward[0]), "angle")
+    across = Quantity("d", 0.0 if abs(offset) <= 1e-9 else offset)
+    waist = write_waist(book, (x, y), "tool", across, names, lead.value)
     start = Quantity("h", float(origin[2]))
     inner = Quantity("l", float(origin[0] * outward[0] + origin[1] * outward[1]))
     for side in waist.sides:

@@ -43,20 +43,24 @@ def write_waist(
     what: str,
     offset: Quantity,
     names: tuple[str, str] = ("front", "back"),
+    lead: float = 0.0,
 ) -> Waist:
-    """θ1 for a point of the arm's plane, which stands at `offset` along (sin θ1, −cos θ1): two sides, or none."""
+    """θ1 for a point of the arm's plane, which stands at `offset` along (sin θ1, −cos θ1): two sides, or none.
+
+    At θ1 = 0 the arm faces the direction `lead`.
+    """
     x, y, D = *point, offset.value
     rho = math.hypot(x.value, y.value)
     choices = names if book.rows.sine[0] > 0.0 else names[::-1]
     free = not D and rho <= _ON_AXIS * book.rows.robot.size
-    psi = book.taken((choices[0],), 0) if free else math.atan2(y.value, x.value)
+    psi = book.taken((choices[0],), 0) + lead if free else math.atan2(y.value, x.value)
     gamma = math.asin(max(-1.0, min(1.0, D / rho))) if D else 0.0
     waist = Waist(x, y, Quantity("\\psi", psi, "angle"), Quantity("\\gamma", gamma, "angle"), ())
     equations = () if free else _equations(book, waist, Quantity("\\rho", rho), offset)
     if rho * rho - D * D < -2.0 * COSINE_TOLERANCE * D * D:
         book.step((), "Waist", _BESIDE.format(what=what), *equations, failure=_too_near(book, rho, abs(D), what))
         return waist
-    text = _free(book, what, psi) if free else (_BESIDE if D else _THROUGH).format(what=what)
+    text = _free(book, what, psi - lead) if free else (_BESIDE if D else _THROUGH).format(what=what)
     book.step((), "Waist: two ways", text, *equations, choices=choices)
     out = math.sqrt(max(rho * rho - D * D, 0.0))
     turn = math.atan2(D, out)
@@ -106,8 +110,8 @@ def _equations(book: Notebook, waist: Waist, rho: Quantity, offset: Quantity) ->
     return psi, distance, figures.equation(waist.gamma, "\\arcsin\\frac{<D,>}{<rho,>}", D=offset, rho=rho)
 
 
-def _free(book: Notebook, what: str, psi: float) -> str:
-    angle = book.figures.text(psi, "angle")
+def _free(book: Notebook, what: str, theta1: float) -> str:
+    angle = book.figures.text(theta1, "angle")
     return f"The {what} lies on the base axis, so the waist may stand anywhere: any q₁ will do. Here {angle} is taken."
 
 

@@ -247,6 +247,13 @@ def test_a_tool_on_the_base_axis_leaves_the_waist_free():
         np.testing.assert_allclose(forward_kinematics(load_robot("rv-m1"), end.q), T, atol=1e-9)
 
 
+def test_a_cylindrical_arm_on_its_axis_stays_where_it_is():
+    robot, q = load_robot("cylindrical"), np.array([2.3, 0.2, 0.0])
+    ends = worked_solution(robot, forward_kinematics(robot, q), q).solutions
+    assert len(ends) == 2
+    np.testing.assert_allclose(ends[0].q, q, atol=1e-12)
+
+
 # --- errata ----------------------------------------------------------------------------------------------------------
 
 ERRATA = {
