@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QLineF, QPointF
+from PySide6.QtCore import QLineF, QPointF, Qt
 from PySide6.QtGui import QPainter, QPolygonF
 
 from rvsim.gui.renderers.painter_ink import (
@@ -35,6 +35,7 @@ _TUBE_WIDTH = 4.0  # from this width on a line is shaded like a tube
 _FINE = 5.0  # [pixels]
 _SHORT, _MANY = 25, 200  # points
 _AXIS_WIDTH = 2.2
+_FEW_DOTS = 200  # with more in one item they are a cloud
 
 
 def polyline_strokes(seen: Seen[Polyline], lens: Lens, solids: SolidPicture | None) -> list[Stroke]:
@@ -133,13 +134,13 @@ def _draw_tube(painter: QPainter, lines: list[QPolygonF], color: Color, width: f
 
 
 def segments_strokes(seen: Seen[Segments], lens: Lens, smooth: bool = True) -> list[Stroke]:
-    """All pieces at once, as far away as the farthest of them; see-through ones with rough edges if not `smooth`."""
+    """All pieces at once, as far away as the farthest of them; thick see-through ones roughly if not `smooth`."""
     pieces = clipped_pieces(seen.eye.reshape(-1, 2, 3), lens)
     if not len(pieces):
         return []
     lines = [QLineF(*piece) for piece in pieces.reshape(-1, 4).tolist()]
     color, width = seen.item.color, seen.item.width
-    rough = not smooth and color.alpha < 1.0  # what takes Qt six times as long
+    rough = not smooth and color.alpha < 1.0 and width >= _TUBE_WIDTH  # what takes Qt six times as long
 
     def draw(painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, not rough)
@@ -153,6 +154,8 @@ def segments_strokes(seen: Seen[Segments], lens: Lens, smooth: bool = True) -> l
 def dot_strokes(seen: Seen[Dots], lens: Lens, solids: SolidPicture | None) -> list[Stroke]:
     """Dots with a rim, a little nearer than the lines that end in them."""
     visible = lens.before(seen.eye)
+    if len(visible) > _FEW_DOTS:
+        return [_cloud_stroke(polygon(seen.pixels[visible]), seen.item)]
     if solids is not None:
         visible &= ~solids.hides(seen.pixels, seen.eye[:, 2])
     nearer = 0.01 * lens.distance
@@ -174,6 +177,20 @@ def _dot_stroke(depth: float, x: float, y: float, item: Dots) -> Stroke:
             painter.drawPoint(centre - QPointF(0.22 * radius, 0.25 * radius))
 
     return Stroke(depth, draw)
+
+
+def _cloud_stroke(points: QPolygonF, item: Dots) -> Stroke:
+    """Very many dots at once, under the figure: each by itself would take a hundred times as long."""
+    flat = pen(item.color, item.size)
+    flat.setCapStyle(Qt.PenCapStyle.SquareCap)
+
+    def draw(painter: QPainter) -> None:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        painter.setPen(flat)
+        painter.drawPoints(points)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+
+    return Stroke(math.inf, draw)
 
 
 def triad_strokes(seen: Seen[Triads], lens: Lens, background: Color) -> list[Stroke]:
