@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
 
 from rvsim.gui.formula_view import EquationsView, Typesetter
@@ -33,7 +34,12 @@ from rvsim.lab.worked import Equation
 from rvsim.robot import Robot
 from rvsim.spatial import rotation_error_angle
 
-_SEEN_ROWS = 7  # of the list, before it scrolls
+_SEEN_ROWS, _FEW_ROWS = 6, 4  # of the list, before it scrolls; where the page is low
+_LOW = 560  # [px]
+_LIST_LOOK = """
+QListWidget { border: 1px solid palette(mid); border-radius: 5px; background: palette(base); }
+QListWidget::item { padding: 2px 4px; }
+"""
 _ALL = ""
 
 
@@ -53,6 +59,7 @@ class SourcePage(InspectPage):
         self.list.setObjectName("source_errata")
         self.list.setAccessibleName("What the sources print wrongly")
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setStyleSheet(_LIST_LOOK)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.currentItemChanged.connect(lambda *_: self._refresh_if_seen())
         self.nothing = wrapped_label("muted")
@@ -113,6 +120,11 @@ class SourcePage(InspectPage):
         self.draw(printed_tool_items(T, tool, title, robot.size, self._stage.palette))
         self.detail.say_drawn(drawn_sentence(distance, turned, shown_as(robot, self._preferences)))
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """A low page has a short list."""
+        super().resizeEvent(event)
+        self._fit_list()
+
     # --- the list --------------------------------------------------------------------------------------------------
 
     def _offer_robot(self, robot: Robot) -> None:
@@ -167,8 +179,8 @@ class SourcePage(InspectPage):
             self.list.setCurrentRow((same or rows)[0])
 
     def _fit_list(self) -> None:
-        rows = min(self.list.count(), _SEEN_ROWS)
-        self.list.setFixedHeight(max(self.list.sizeHintForRow(0), 1) * rows + 2 * self.list.frameWidth() + 2)
+        rows = min(self.list.count(), _SEEN_ROWS if self.height() >= _LOW else _FEW_ROWS)
+        self.list.setFixedHeight(max(self.list.sizeHintForRow(0), 1) * rows + 2 * self.list.frameWidth())
 
 
 def _angle_between(T: np.ndarray, tool: np.ndarray) -> float:
@@ -188,7 +200,7 @@ class ErratumView(QWidget):
         typesetter = Typesetter(self)
         self.heading, self.why = wrapped_label("title"), wrapped_label()
         self.printed, self.right = EquationsView(typesetter), EquationsView(typesetter)
-        self.right_head = _small("right")
+        self.right_head = _small("Right")
         self.verdict, self.units, self.drawn = wrapped_label(), wrapped_label("muted"), wrapped_label("muted")
         for label, part in ((self.heading, "heading"), (self.why, "why"), (self.verdict, "verdict"),
                             (self.drawn, "drawn")):  # fmt: skip
@@ -201,21 +213,22 @@ class ErratumView(QWidget):
 
     def _lay_out(self) -> None:
         here = QHBoxLayout()
-        self.here = QLabel("At the present pose")
+        self.here = QLabel("At this pose")
         set_role(self.here, role="title")
         here.addWidget(self.here, 1)
         here.addWidget(self.to_pose)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
-        for widget in (self.heading, _small("printed"), self.printed, self.right_head, self.right, self.why):
+        for widget in (self.heading, _small("Printed"), self.printed, self.right_head, self.right, self.why):
             column.addWidget(widget)
         column.addLayout(here)
+        column.addWidget(self.verdict)
         for title, grid in zip(self.titles, self.grids, strict=True):
             column.addWidget(title)
             column.addWidget(grid)
-        for label in (self.verdict, self.units, self.drawn):
-            column.addWidget(label)
+        column.addWidget(self.units)
+        column.addWidget(self.drawn)
 
     def show_entry(self, entry: Erratum, comparison: Comparison | None, robot: Robot, preferences: Preferences) -> None:
         """Show an erratum and, where it has numbers, the comparison at the present pose."""
@@ -234,7 +247,7 @@ class ErratumView(QWidget):
             grid.setVisible(seen)
             title.setVisible(seen and bool(made.sheets[index][0]))
             if seen:
-                _set_text(title, made.sheets[index][0].lower())
+                _set_text(title, made.sheets[index][0])
                 grid.show_sheet(f"{heading(entry)}: {made.sheets[index][0] or 'numbers'}", _maker(
                     index, entry, comparison, robot, preferences))  # fmt: skip
         self._say(*verdict(entry, comparison, shown), made.units)
@@ -270,9 +283,7 @@ class ErratumView(QWidget):
             self._session.move_to(self._entry.pose, f"Pose of {heading(self._entry).lower()}")
 
 
-def _maker(
-    index: int, entry: Erratum, comparison: Comparison, robot: Robot, preferences: Preferences
-) -> MakeSheet:
+def _maker(index: int, entry: Erratum, comparison: Comparison, robot: Robot, preferences: Preferences) -> MakeSheet:
     """Makes that table of the comparison with fewer decimals."""
 
     def make(fewer: int) -> Sheet:

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from rvsim.gui.panels.inspect_source_words import Sheet
 from rvsim.gui.theme import number_font
 
-_GAP, _HEAD_GAP = 10.0, 12.0
+_GAP, _HEAD_GAP, _MARGIN = 6.0, 8.0, 4.0  # between columns, behind the rows' names, at the sides of a tint
 _WIDEST_COLUMN = 92.0  # [px] at most, at a font of 12 px: numbers far apart are hard to compare
 _TINT = 46  # of 255
 _LINE = 1.55  # a row, in heights of the font
@@ -60,7 +60,7 @@ class Grid(QWidget):
                 return
 
     def _needed(self, sheet: Sheet) -> float:
-        return self._head_width(sheet) + sum(self._widths(sheet)) + _GAP * (len(sheet.cells[0]) - 1)
+        return self._head_width(sheet) + sum(self._widths(sheet)) + _GAP * (len(sheet.cells[0]) - 1) + _MARGIN
 
     def _metrics(self) -> QFontMetricsF:
         return QFontMetricsF(number_font(self.font()))
@@ -72,8 +72,10 @@ class Grid(QWidget):
         )
 
     def _widths(self, sheet: Sheet) -> list[float]:
-        """Of the columns: all alike, as wide as the widest entry."""
-        metrics, count = self._metrics(), len(sheet.cells[0])
+        """Of the columns: all alike, as wide as the widest entry would be in bold."""
+        bold = number_font(self.font())
+        bold.setBold(True)
+        metrics, count = QFontMetricsF(bold), len(sheet.cells[0])
         texts = [*sheet.columns, *(text for row in sheet.cells for text in row)]
         return [max(metrics.horizontalAdvance(text) for text in texts)] * count
 
@@ -124,7 +126,7 @@ class Grid(QWidget):
         """The left ends of the columns and their common width; the room that is left over widens them somewhat."""
         count, head = len(sheet.cells[0]), self._head_width(sheet)
         most = _WIDEST_COLUMN * self._metrics().height() / 15.0
-        wanted = (self.width() - head - _GAP * (count - 1)) / count
+        wanted = (self.width() - head - _MARGIN - _GAP * (count - 1)) / count
         width = max(self._widths(sheet)[0], min(wanted, most))
         return [head + index * (width + _GAP) for index in range(count)], width
 
@@ -136,7 +138,7 @@ class Grid(QWidget):
             if wrong:
                 tint = QColor(_WRONG)
                 tint.setAlpha(_TINT)
-                painter.fillRect(box.adjusted(0, 1, 5, -1).toRect(), tint)
+                painter.fillRect(box.adjusted(0, 1, _MARGIN, -1).toRect(), tint)
             self._write(painter, box, text, bold=bool(wrong))
 
     def _write(

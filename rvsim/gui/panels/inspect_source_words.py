@@ -95,13 +95,17 @@ def _columns(entry: Erratum, comparison: Comparison, shown: Shown) -> Sheets:
     printed, right, gap = (np.atleast_1d(a) for a in (comparison.printed, comparison.right, comparison.difference))
     kinds, wrong = np.atleast_1d(comparison.kinds), np.atleast_1d(comparison.differs)
     names = entry.rows or ("",) * len(right)
-    heads = tuple(" ".join((name, unit(str(kind), shown))).strip() for name, kind in zip(names, kinds, strict=True))
+    heads = tuple(_head(name, unit(str(kind), shown)) for name, kind in zip(names, kinds, strict=True))
     cells = tuple(
         tuple(cell(float(value), str(kind), shown) for value in row)
         for *row, kind in zip(printed, right, gap, kinds, strict=True)
     )
     marks = np.column_stack([wrong, np.zeros_like(wrong), wrong])
     return Sheets((("", Sheet(("printed", "ours", "difference"), heads, cells, marks)),), "")
+
+
+def _head(name: str, unit: str) -> str:
+    return f"{name} [{unit}]" if unit else name
 
 
 def _matrices(entry: Erratum, comparison: Comparison, shown: Shown) -> Sheets:

@@ -168,12 +168,16 @@ _FRAMES = (
     Erratum(
         "004-3.15", "004", "(3.15) and (3.16)", "al5b", "frames", "Four signs of the rotation",
         (
-            r"n_x = c_1 c_{234} c_5 + s_1 s_5,\quad n_y = s_1 c_{234} c_5 - c_1 s_5",
-            r"o_x = -c_1 c_{234} s_5 + s_1 c_5,\quad o_y = -s_1 c_{234} s_5 - c_1 c_5",
+            r"n_x = c_1 c_{234} c_5 + s_1 s_5",
+            r"n_y = s_1 c_{234} c_5 - c_1 s_5",
+            r"o_x = -c_1 c_{234} s_5 + s_1 c_5",
+            r"o_y = -s_1 c_{234} s_5 - c_1 c_5",
         ),
         (
-            r"n_x = c_1 c_{234} c_5 - s_1 s_5,\quad n_y = s_1 c_{234} c_5 + c_1 s_5",
-            r"o_x = -c_1 c_{234} s_5 - s_1 c_5,\quad o_y = -s_1 c_{234} s_5 + c_1 c_5",
+            r"n_x = c_1 c_{234} c_5 - s_1 s_5",
+            r"n_y = s_1 c_{234} c_5 + c_1 s_5",
+            r"o_x = -c_1 c_{234} s_5 - s_1 c_5",
+            r"o_y = -s_1 c_{234} s_5 + c_1 c_5",
         ),
         "They follow from the printed (3.12): its mirror inverts every term with s₁ or c₁ alone. Moreover n_z is "
         "labelled n_y once, and o_z is garbled.",

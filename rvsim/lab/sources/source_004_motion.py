@@ -138,7 +138,7 @@ _JACOBIAN = (
     ),
     Erratum(
         "004-4.9", "004", "(4.9), z₅", "al5b", "jacobian", "The tool's axis turned upside down",
-        (r"z_5 = (c_1 c_{234},\, s_1 c_{234},\, -s_{234})",), (r"z_5 = (c_1 c_{234},\, s_1 c_{234},\, s_{234})",),
+        (r"z_5 = (c_1 c_{234},\, s_1 c_{234},\, {-}s_{234})",), (r"z_5 = (c_1 c_{234},\, s_1 c_{234},\, s_{234})",),
         "The height of (4.8) grows with s₂₃₄, and z₅ points from the wrist to the tool.",
         TEXT_POSE, "number", axis_4_9, lambda robot, q: forward_kinematics(robot, q)[:3, 2], rows=("x", "y", "z"),
     ),
@@ -153,7 +153,7 @@ _JACOBIAN = (
     Erratum(
         "004-4.15", "004", "(4.15)", "al5b", "jacobian", "The roll's column is that of joint 4",
         (r"J_5 = z_4 \times (o_5 - o_4)",
-         r"J_5 = (-c_1 s_{234} d_5,\; -s_1 s_{234} d_5,\; c_{234} d_5,\; s_1,\; -c_1,\; 0)^T"),
+         r"J_5 = (-c_1 s_{234} d_5,\; {-}s_1 s_{234} d_5,\; c_{234} d_5,\; s_1,\; {-}c_1,\; 0)^T"),
         (r"J_5 = (0,\; 0,\; 0,\; z_5)^T",),
         "The roll turns about the tool's own axis and does not move its origin.",
         TEXT_POSE, "jacobian", column_4_15, lambda robot, q: jacobian(robot, q)[:, 4], rows=_AXES,

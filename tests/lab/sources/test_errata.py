@@ -219,10 +219,3 @@ def test_errata_are_asked_for_by_arm_and_topic() -> None:
     assert all(original_name(load_robot(entry.robot)) == entry.robot for entry in ALL)
     with pytest.raises(UnknownNameError, match="000-22"):
         erratum_of("000-2x2")
-
-
-def test_every_formula_can_be_typeset() -> None:
-    ziamath = pytest.importorskip("ziamath.zmath")
-    for entry in ALL:
-        for latex in (*entry.printed_latex, *entry.right_latex):
-            assert ziamath.Latex(latex.replace("\\operatorname{", "\\mathrm{"), size=16.0).svg(), entry.key
