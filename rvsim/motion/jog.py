@@ -14,11 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.kinematics.rates import tool_twist
-from rvsim.motion.jog_course import Course, JointMotion, ToolMotion, course_of
+from rvsim.motion.jog_course import LONGEST_STEP, Course, JointMotion, ToolMotion, course_of
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 RAMP = 0.25  # seconds from rest to full speed, and from full speed to rest
+_HORIZON = 0.5 * RAMP + LONGEST_STEP[0]  # [s at full speed]: a stop, and what lies between two points
 _STEP = 1e-3  # [s] of the speed law; the course is exact whatever it is
 _REST = 2e-5  # [s at full speed]: so near to the end of a course is there; the speed law comes no nearer
 
@@ -70,7 +71,7 @@ class Jog:
     def advance(self, q: ArrayLike, dt: float) -> JogStep:
         """Move on by dt [s] from q (n,); an arm that somebody else has moved meanwhile begins anew from there."""
         course = self._course_from(np.asarray(q, dtype=np.float64))
-        course.reach(self._way + dt + 0.5 * RAMP)
+        course.reach(self._way + dt + _HORIZON)
         speed_limits = course.speed_limits(1.0 / RAMP)
         steps = max(1, math.ceil(dt / _STEP))
         for _ in range(steps):

@@ -19,7 +19,7 @@ from rvsim.spatial import rotation_from_vector, rotation_vector
 
 Axes = Literal["base", "tool"]
 
-_LONGEST_STEP = (0.02, 0.002, math.radians(1.0))  # between two points: [s at full speed], [m], [rad]
+LONGEST_STEP = (0.02, 0.002, math.radians(1.0))  # between two points: [s at full speed], [m], [rad]
 _ITERATIONS = 8
 _POSITION, _TURN = 1e-8, math.radians(0.1)  # [m], [rad] off the course that pass
 _SMALLEST = 1e-4  # singular values below are lost; lengths in sizes of the arm
@@ -194,7 +194,7 @@ class Course:
 def course_of(robot: Robot, q: FloatArray, motion: ToolMotion | JointMotion, limits: FloatArray) -> Course:
     """The course of that motion from q (n,) on."""
     if isinstance(motion, JointMotion):
-        return Course(robot, q, _LONGEST_STEP[0], _JointGuide(robot, q, motion), limits)
+        return Course(robot, q, LONGEST_STEP[0], _JointGuide(robot, q, motion), limits)
     guide = _ToolGuide(robot, q, motion)
     return Course(robot, q, guide.pace, guide, limits, guide.refusal)
 
@@ -231,7 +231,7 @@ class _ToolGuide:
         self._v, self._w = R @ motion.v, R @ motion.w
         self._strict = bool(np.any(motion.w)) or robot.dof >= 6  # whether the orientation must be as it should
         speeds = (1.0, float(np.linalg.norm(self._v)), float(np.linalg.norm(self._w)))
-        self.pace = min(step / speed for step, speed in zip(_LONGEST_STEP, speeds, strict=True) if speed > 0.0)
+        self.pace = min(step / speed for step, speed in zip(LONGEST_STEP, speeds, strict=True) if speed > 0.0)
         self.refusal = self._refusal(J)
 
     def _refusal(self, J: FloatArray) -> str:

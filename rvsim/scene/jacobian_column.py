@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from rvsim.kinematics import link_transforms
 from rvsim.robot import Robot
 from rvsim.scene.arrows import ON_TOP, arrow_items, turn_arrow_items
-from rvsim.scene.palette import ScenePalette
+from rvsim.scene.palette import ScenePalette, mixed
 from rvsim.scene.points import joint_axes
 from rvsim.scene.primitives import Color, Item, Label, Labels, Polyline
 
@@ -18,7 +18,7 @@ FloatArray = NDArray[np.float64]
 
 VELOCITY_SCALE = 0.4  # of a second: how far along its arrow the tool would come
 _KEY = f"{ON_TOP}jacobian"
-_AXIS, _HEAD, _RADIUS = 0.2, 0.05, 0.075  # in sizes of the arm
+_AXIS, _HEAD, _RADIUS = 0.26, 0.05, 0.08  # in sizes of the arm
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
@@ -52,10 +52,11 @@ def column_items(robot: Robot, q: ArrayLike, joint: int, speed: str, palette: Sc
 
 
 def _axis(o: FloatArray, z: FloatArray, color: Color, size: float, palette: ScenePalette) -> list[Item]:
-    line = np.stack([o - 2.0 * _AXIS * size * z, o + 2.0 * _AXIS * size * z])
+    line = np.stack([o - 1.5 * _AXIS * size * z, o + 1.5 * _AXIS * size * z])
+    ink = mixed(color, palette.text, 0.35)  # not quite the joint's own: it would be lost before its housing
     return [
-        Polyline(f"{_KEY}.line", line, color.faded(0.9), 1.6, dashed=True),
-        *_arrow("z", o, _AXIS * size * z, color, size, palette),
+        Polyline(f"{_KEY}.line", line, ink.faded(0.9), 1.6, dashed=True),
+        *_arrow("z", o, _AXIS * size * z, ink, size, palette, width=4.0),
     ]
 
 

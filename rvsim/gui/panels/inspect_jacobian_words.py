@@ -139,7 +139,7 @@ def column_equations(
     if kind == "tool":
         z, arm = z @ tool[:3, :3], arm @ tool[:3, :3]
     factor, _, decimals = length_factor(robot, preferences)
-    axis = _vector(z, _MOST_DECIMALS)
+    axis = column_vector(z, _MOST_DECIMALS)
     if not robot.joints[joint].revolute:
         return (
             Equation(f"J_{{{joint + 1}}}", _stacked(f"z_{{{frame}}}", "0"), "", ""),
@@ -151,12 +151,12 @@ def column_equations(
         Equation(
             cross,
             "",
-            f"{axis}\\times {_vector(factor * arm, decimals)}",
-            _vector(factor * np.cross(z, arm), decimals),
+            f"{axis}\\times {column_vector(factor * arm, decimals)}",
+            column_vector(factor * np.cross(z, arm), decimals),
         ),
     ]
     if kind in ("rpy", "zyz"):
-        lines.append(Equation(_lower(kind, frame), "", "", _vector(J[3:, joint], _MOST_DECIMALS)))
+        lines.append(Equation(_lower(kind, frame), "", "", column_vector(J[3:, joint], _MOST_DECIMALS)))
     return tuple(lines)
 
 
@@ -200,7 +200,7 @@ def _stacked(*entries: str) -> str:
     return "\\begin{bmatrix}" + " \\\\ ".join(entries) + "\\end{bmatrix}"
 
 
-def _vector(values: FloatArray, decimals: int) -> str:
+def column_vector(values: FloatArray, decimals: int) -> str:
     """A column whose digits have fixed places: another pose is the same shape, and needs not to be set anew."""
     texts = ["–" if np.isnan(value) else f"{abs(value):.{decimals}f}" for value in values.tolist()]
     width = max(map(len, texts))
