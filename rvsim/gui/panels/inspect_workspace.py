@@ -1,0 +1,342 @@
+"""The workspace page: where the tool can go, sampled or asked beside the window, as a map and in the scene."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QPainter, QPixmap, QStandardItemModel
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QFileDialog,
+    QGridLayout,
+    QHBoxLayout,
+    QProgressBar,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rvsim.errors import RvsimError
+from rvsim.experiment import Experiment
+from rvsim.files.atomic import write_atomically
+from rvsim.gui.panels.copying import CopyButton
+from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.panels.inspect_page import InspectPage
+from rvsim.gui.panels.inspect_workspace_words import (
+    COLORS,
+    EMPTY,
+    FIGURES,
+    LIMITS,
+    ORIENTATIONS,
+    POSES,
+    SECTIONS,
+    axis_titles,
+    cloud_shares,
+    done_sentence,
+    map_csv,
+    refusal,
+    section_sentence,
+    task_of,
+    values_of,
+)
+from rvsim.gui.panels.inspect_workspace_worker import Survey, Surveyor
+from rvsim.gui.picture import save_image
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import Display, display, length_kind
+from rvsim.gui.session import Session
+from rvsim.gui.stage import Stage
+from rvsim.gui.widgets import button, column_of, combo, scrolled, select
+from rvsim.kinematics import forward_kinematics
+from rvsim.kinematics.workspace import SectionMap
+from rvsim.scene.cloud import cloud_items, section_items
+from rvsim.scene.primitives import Item
+
+if TYPE_CHECKING:
+    from rvsim.gui.panels.inspect_workspace_map import ScaleBar, SectionPlot
+
+_BESIDE = 0.02  # of the map's width: how far the tool may stand beside the plane of a section and still be in it
+
+
+class WorkspacePage(InspectPage):
+    """Choices, a button, the map; what was worked out last stays until something new is ready."""
+
+    title = "Workspace"
+    name = "inspect_workspace"
+
+    def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
+        super().__init__(session, preferences, stage, parent)
+        self.survey: Survey | None = None
+        self._shown: tuple[object, ...] = ()
+        self._plot: SectionPlot | None = None
+        self._bar: ScaleBar | None = None
+        self._make_choices()
+        self.surveyor = Surveyor(self)
+        self.surveyor.progressed.connect(self._on_progress)
+        self.surveyor.done.connect(self._on_done)
+        surveyor = self.surveyor
+        self.destroyed.connect(lambda: surveyor.close())
+        self._offer()
+        self._lay_out()
+        self._show_busy(False)
+
+    def close_worker(self) -> None:
+        """End the thread, for the window closes."""
+        self.surveyor.close()
+
+    # --- making ------------------------------------------------------------------------------------------------------
+
+    def _make_choices(self) -> None:
+        self.orientations = combo("workspace_orientation", "The tool's orientation", ORIENTATIONS)
+        self.colors = combo("workspace_color", "What the colours mean", COLORS)
+        self.sections = combo("workspace_section", "Which section is shown", SECTIONS)
+        self.limits = combo("workspace_limits", "Joint limits", LIMITS)
+        self.poses = combo("workspace_poses", "How many poses are sampled")
+        for number, text in POSES.items():
+            self.poses.addItem(text, number)
+        select(self.poses, 1_000_000)
+        for box in (self.colors, self.sections):
+            box.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
+        self.orientations.currentIndexChanged.connect(lambda _: self._offer())
+        self.in_scene = QCheckBox("Show in scene")
+        self.in_scene.setObjectName("workspace_in_scene")
+        self.in_scene.setChecked(True)
+        self.in_scene.toggled.connect(lambda _: self._refresh_if_seen())
+        tip = "Work out where the tool can go, in the plane where the arm stands now"
+        self.sample = button("sample_workspace_button", "Sample", tip, self.start, primary=True)
+        self.cancel = button("cancel_workspace_button", "Cancel", "Give up; the map stays as it was", self.give_up)
+        self.progress = QProgressBar()
+        self.progress.setObjectName("workspace_progress")
+        self.progress.setRange(0, 1000)
+        self.progress.setTextVisible(False)
+        self.progress.setFixedHeight(6)
+        self.figure, self.place, self.state = (wrapped_label("muted") for _ in range(3))
+        for label, part in ((self.figure, "figure"), (self.place, "place"), (self.state, "state")):
+            label.setObjectName(f"workspace_{part}")
+        self.copy = CopyButton("workspace_copy", "the map", {"CSV": self._csv}, self._session)
+        self.save_csv = button(
+            "save_workspace_csv_button", "Save CSV…", "Save the map's cells as a table", self._save_csv
+        )
+        self.save_png = button(
+            "save_workspace_png_button", "Save picture…", "Save the map as a picture", self._save_png
+        )
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout()
+        grid.setSpacing(6)
+        for number, box in enumerate((self.orientations, self.colors, self.sections, self.limits, self.poses)):
+            grid.addWidget(box, number // 2, number % 2)
+        grid.addWidget(self.in_scene, 2, 1)
+        run, save = QHBoxLayout(), QHBoxLayout()
+        run.addWidget(self.sample, 1)
+        run.addWidget(self.cancel)
+        for widget in (self.copy, self.save_csv, self.save_png):
+            save.addWidget(widget)
+        save.addStretch(1)
+        inside = QWidget()
+        self._column = QVBoxLayout(inside)
+        self._column.setContentsMargins(12, 8, 12, 12)
+        self._column.setSpacing(6)
+        self._column.addLayout(grid)
+        self._column.addLayout(run)
+        for label in (self.progress, self.state, self.place, self.figure):
+            self._column.addWidget(label)
+        self._column.addLayout(save)
+        self._column.addStretch(0)
+        column_of(self, scrolled(inside))
+
+    def _drawn(self) -> tuple[SectionPlot, ScaleBar]:
+        """The map and its scale, made when there is something to show: pyqtgraph takes its time to load."""
+        if self._plot is None or self._bar is None:
+            from rvsim.gui.panels.inspect_workspace_map import ScaleBar, SectionPlot
+
+            self._plot, self._bar = SectionPlot(self._preferences), ScaleBar(self._preferences)
+            at = self._column.indexOf(self.place)
+            self._column.insertWidget(at, self._bar)
+            self._column.insertWidget(at, self._plot, 1)
+        return self._plot, self._bar
+
+    def _offer(self) -> None:
+        """Grey out what this arm cannot do, and say why."""
+        robot = self._session.robot
+        for box, choice, other in ((self.orientations, "fixed", "free"), (self.colors, "branches", "manipulability")):
+            why = refusal(robot, choice)
+            _enable(box, choice, why)
+            if why and box.currentData() == choice:
+                select(box, other)
+        self.poses.setEnabled(self.orientations.currentData() == "free")
+
+    # --- working it out ----------------------------------------------------------------------------------------------
+
+    def start(self) -> None:
+        """Work out what the choices ask for."""
+        boxes = {"orientation": self.orientations, "color": self.colors, "poses": self.poses, "limits": self.limits}
+        choices = {name: box.currentData() for name, box in boxes.items()}
+        self.surveyor.start(task_of(self._session.robot, self._session.q, choices))
+        self._show_busy(True)
+
+    def give_up(self) -> None:
+        """Stop; what was shown before stays."""
+        self.surveyor.cancel()
+        self._show_busy(False)
+        self._session.say("Given up. The map is as it was before.")
+
+    def _on_progress(self, share: float) -> None:
+        self.progress.setValue(round(1000 * share))
+
+    def _on_done(self, survey: Survey) -> None:
+        self._show_busy(False)
+        if survey.workspace.task.robot is not self._session.robot:
+            return
+        self.survey = survey
+        self._session.say(done_sentence(survey))
+        self._refresh_if_seen()
+
+    def _show_busy(self, busy: bool) -> None:
+        self.progress.setValue(0)
+        self.cancel.setEnabled(busy)
+        self.sample.setEnabled(not busy)
+
+    # --- showing it --------------------------------------------------------------------------------------------------
+
+    def concerns(self, before: Experiment, after: Experiment) -> bool:
+        """Another arm: another workspace."""
+        if after.robot is not before.robot:
+            self.surveyor.cancel()
+            self._show_busy(False)
+            self.survey = None
+            self._offer()
+            select(self.sections, "top" if after.robot.name == "planar" else self.sections.currentData())
+        return super().concerns(before, after)
+
+    def refresh(self) -> None:
+        """The map where something new is to be seen in it, the tool in any case."""
+        survey = self.survey
+        for widget in (self.copy, self.save_csv, self.save_png):
+            widget.setEnabled(survey is not None)
+        self.figure.setText(FIGURES.get(self._session.robot.name, ""))
+        self.figure.setVisible(bool(self.figure.text()))
+        if survey is None:
+            self._show_nothing()
+            return
+        names = ("theme", "length_unit", "angle_unit", "extra_decimals", "presentation")
+        what = (survey, self.colors.currentData(), self.sections.currentData(), self.in_scene.isChecked())
+        now = (*what, *(self._preferences[name] for name in names), self.font().pointSizeF())
+        if now != self._shown:
+            self._shown = now
+            self._show_map(survey)
+            self._draw_scene(survey)
+        self._show_tool()
+
+    def set_seen(self, seen: bool) -> None:
+        """Coming back, draw again what has been taken out of the scene."""
+        if seen != self.seen:
+            self._shown = ()
+        super().set_seen(seen)
+
+    def _show_nothing(self) -> None:
+        self._shown = ()
+        self.state.setText(EMPTY)
+        self.place.setText("")
+        self.draw(())
+        if self._plot is not None and self._bar is not None:
+            self._plot.clear_section()
+            self._bar.show_values(None)
+
+    @property
+    def section(self) -> SectionMap | None:
+        """The section that is shown."""
+        if self.survey is None:
+            return None
+        result = self.survey.workspace
+        return result.side if self.sections.currentData() == "side" else result.top
+
+    @property
+    def _length(self) -> Display:
+        return display(length_kind(self._session.robot), self._preferences)
+
+    def _show_map(self, survey: Survey) -> None:
+        plot, bar = self._drawn()
+        section, kind = self.section, self.sections.currentData()
+        assert section is not None
+        values = values_of(survey, section, self.colors.currentData())
+        plot.show_section(section, values, axis_titles(section, kind), self._length)
+        bar.show_values(values)
+        counted = self.colors.currentData() != "branches" or section.branches is not None
+        self.state.setText(done_sentence(survey) if counted else "Press Sample again to count the branches.")
+        self.place.setText(section_sentence(survey, kind, self._preferences))
+
+    def _show_tool(self) -> None:
+        section, plot = self.section, self._plot
+        if section is None or plot is None:
+            return
+        tool = forward_kinematics(self._session.robot, self._session.q)[:3, 3]
+        u, v = section.flat(tool).tolist()
+        apart = float(np.linalg.norm(section.place((u, v)) - tool))
+        if self.sections.currentData() == "side" and not section.projected:
+            away = math.hypot(*(tool - section.origin)[:2])
+            u = math.copysign(away, u)  # turned into the plane, as joint 1 would
+        near = apart <= _BESIDE * float(section.grid.upper[0] - section.grid.lower[0])
+        plot.show_tool(np.array([u, v]), inside=near, shown=self._length)
+
+    def _draw_scene(self, survey: Survey) -> None:
+        items: tuple[Item, ...] = ()
+        if self.in_scene.isChecked():
+            result, palette = survey.workspace, self._stage.palette
+            items = cloud_items(result.cloud, cloud_shares(survey, self.colors.currentData()), palette)
+            items += section_items(result.side, palette, key="workspace.side")
+            items += section_items(result.top, palette, key="workspace.top")
+        self.draw(items)
+
+    # --- keeping it --------------------------------------------------------------------------------------------------
+
+    def _csv(self) -> str:
+        return map_csv(self.survey, self.sections.currentData(), self._length) if self.survey else ""
+
+    def _save_csv(self) -> None:
+        self._save(
+            "Save map as CSV", "csv", "Tables (*.csv)", lambda file: write_atomically(file, self._csv().encode())
+        )
+
+    def _save_png(self) -> None:
+        self._save(
+            "Save map as picture", "png", "Pictures (*.png *.jpg)", lambda file: save_image(self.picture(), file)
+        )
+
+    def picture(self) -> QPixmap:
+        """The map with its scale, as it is seen."""
+        plot, bar = self._drawn()
+        whole = plot.geometry().united(bar.geometry() if bar.isVisible() else plot.geometry())
+        picture = QPixmap(whole.size() * self.devicePixelRatioF())
+        picture.setDevicePixelRatio(self.devicePixelRatioF())
+        picture.fill(self.palette().window().color())
+        with QPainter(picture) as painter:
+            for widget in (plot, bar):
+                if widget.isVisible():
+                    painter.drawPixmap(widget.pos() - whole.topLeft(), widget.grab())
+        return picture
+
+    def _save(self, title: str, ending: str, kinds: str, write: Callable[[Path], object]) -> None:
+        start = Path.home() / f"{self._session.robot.name}-workspace-{self.sections.currentData()}.{ending}"
+        chosen, _ = QFileDialog.getSaveFileName(self, title, str(start), kinds)
+        if not chosen:
+            return
+        try:
+            write(Path(chosen))
+        except (RvsimError, OSError) as problem:
+            self._session.say(f"Nothing was written. {problem}", "error")
+            return
+        self._session.say(f"Saved {chosen}.")
+
+
+def _enable(box: QComboBox, choice: str, why_not: str) -> None:
+    """Let an entry be chosen, or say why not."""
+    row = box.findData(choice)
+    model = box.model()
+    assert isinstance(model, QStandardItemModel)
+    model.item(row).setEnabled(not why_not)
+    box.setItemData(row, why_not, Qt.ItemDataRole.ToolTipRole)

@@ -1,0 +1,144 @@
+"""What the workspace page says: its choices, the classic figures of the textbook arms, the table of a map."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from rvsim.gui.panels.inspect_workspace_worker import Survey
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import Display, format_quantity, length_kind
+from rvsim.kinematics.workspace import SectionMap, WorkspaceTask, has_branches, holds_orientation
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+ORIENTATIONS = {"free": "Tool free to turn", "fixed": "Tool held as now"}
+COLORS = {"manipulability": "Manipulability", "branches": "Branches", "none": "No colours"}
+SECTIONS = {"side": "From the side", "top": "From above"}
+POSES = {100_000: "100,000 poses", 1_000_000: "1,000,000 poses", 4_000_000: "4,000,000 poses"}
+LIMITS = {"within": "Within limits", "ignored": "Ignoring limits"}
+
+_SOURCE = "source 004"
+FIGURES = {
+    "articulated": f"The elbow manipulator's workspace ({_SOURCE}, §2.1.1, its figure 2.6): a ball, hollow where the "
+    "elbow cannot fold further, cut off where the joints stop.",
+    "spherical": f"The spherical manipulator's workspace ({_SOURCE}, §2.1.2, its figure 2.9): a thick shell between "
+    "the shortest and the longest extension.",
+    "scara": f"The SCARA's workspace ({_SOURCE}, §2.1.3, its figure 2.12): the ring of a planar arm, as high as "
+    "the stroke of joint 3.",
+    "cylindrical": f"The cylindrical manipulator's workspace ({_SOURCE}, its figure 2.11): a hollow cylinder.",
+    "cartesian": f"The Cartesian manipulator's workspace ({_SOURCE}, §2.1.4, its figure 2.14): a box.",
+    "planar": f"The planar arm of {_SOURCE}'s figure 4.1 reaches a ring: its rims are the boundary singularities, "
+    "stretched out and folded back.",
+}
+EMPTY = "No workspace yet: press Sample, and see where the tool can go."
+
+
+class Values(NamedTuple):
+    """What a map is coloured by: the values, the largest, and what they are called; no values: one colour."""
+
+    values: FloatArray | None
+    largest: float
+    title: str
+    whole: bool = False
+
+
+def values_of(survey: Survey, section: SectionMap, color: str) -> Values:
+    """The values of a section under a choice of colour."""
+    if color == "branches" and section.branches is not None:
+        counts = section.branches
+        return Values(counts, _largest(counts), "branches, the most at each place", whole=True)
+    if color == "none":
+        return Values(None, 1.0, "")
+    shape = "√det(JᵀJ)" if survey.workspace.task.robot.dof < 6 else "√det(JJᵀ)"
+    measure = section.manipulability
+    return Values(measure, _largest(measure), f"largest manipulability {shape}, in SI units")
+
+
+def cloud_shares(survey: Survey, color: str) -> FloatArray:
+    """(m,) 0…1 for the cloud, by the same scale as the maps."""
+    result = survey.workspace
+    if color == "branches" and result.cloud_branches is not None:
+        return _shares(result.cloud_branches - 1.0)
+    if color == "none":
+        return np.full(len(result.cloud), 0.5)
+    return _shares(result.cloud_manipulability)
+
+
+def _largest(values: FloatArray) -> float:
+    return float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
+
+
+def _shares(values: FloatArray) -> FloatArray:
+    return np.asarray(values / max(float(values.max(initial=0.0)), 1e-300))
+
+
+def refusal(robot: Robot, choice: str) -> str:
+    """Why a choice makes no sense for an arm, or ""."""
+    if choice == "fixed" and not holds_orientation(robot):
+        return "This arm cannot hold the tool's orientation all over an area."
+    if choice == "branches" and not has_branches(robot):
+        return "This arm has no closed form, so its branches cannot be counted."
+    return ""
+
+
+def done_sentence(survey: Survey) -> str:
+    """What was done, and how long it took."""
+    task = survey.workspace.task
+    what = "Every cell asked" if task.fixed else f"{task.poses:,} poses sampled"
+    limits = "joint limits ignored" if task.ignore_limits else "within the joint limits"
+    return f"{what} in {survey.seconds:.2f} s, {limits}."
+
+
+def section_sentence(survey: Survey, kind: str, preferences: Preferences) -> str:
+    """Where the section lies, and what its rim is."""
+    result = survey.workspace
+    robot = result.task.robot
+    section = result.side if kind == "side" else result.top
+    rim = "The rim is exact." if section.exact else "The rim goes round the cells that were reached."
+    if kind == "top":
+        height = format_quantity(float(section.origin[2]), length_kind(robot), preferences)
+        return f"Level section at the tool's height, z = {height}. {rim}"
+    if section.projected:
+        return f"All places, seen along y. {rim}"
+    angle = format_quantity(float(np.arctan2(section.axis_u[1], section.axis_u[0])), "angle", preferences)
+    return f"Upright section through the base axis, at azimuth {angle}. {rim}"
+
+
+def axis_titles(section: SectionMap, kind: str) -> tuple[str, str]:
+    """The names of the axes, below and beside."""
+    if kind == "top":
+        return "x", "y"
+    return ("x", "z") if abs(section.axis_u[1]) < 1e-12 and not section.exact and section.projected else ("r", "z")
+
+
+def map_csv(survey: Survey, kind: str, shown: Display) -> str:
+    """The reached cells of a map: their middle in base axes, manipulability and branches (empty: not counted)."""
+    section = survey.workspace.side if kind == "side" else survey.workspace.top
+    reached = section.reached.reshape(-1)
+    places = section.place(section.grid.centers()[reached]) * shown.factor
+    measure = section.manipulability.reshape(-1)[reached]
+    counts = [""] * len(places)
+    if section.branches is not None:
+        counts = ["" if np.isnan(count) else f"{count:.0f}" for count in section.branches.reshape(-1)[reached]]
+    unit = shown.suffix.strip()
+    rows = (
+        ",".join((*(f"{value:.9g}" for value in place), f"{value:.9g}", count))
+        for place, value, count in zip(places.tolist(), measure.tolist(), counts, strict=True)
+    )
+    return "\n".join((f"x_{unit},y_{unit},z_{unit},manipulability,branches", *rows, ""))
+
+
+def task_of(robot: Robot, q: FloatArray, choices: dict[str, object]) -> WorkspaceTask:
+    """What the page's choices ask for."""
+    poses = choices["poses"]
+    assert isinstance(poses, int)
+    return WorkspaceTask(
+        robot,
+        q,
+        fixed=choices["orientation"] == "fixed",
+        branches=choices["color"] == "branches",
+        poses=poses,
+        ignore_limits=choices["limits"] == "ignored",
+    )
