@@ -35,7 +35,7 @@ _SPEED, _TURN = 0.05, np.radians(20.0)
 _UNIT_SPEED = 0.2  # for arms whose lengths have no unit
 _AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 _IN_A_ROW = 3
-_KEYS_HELP = "Keys, once you clicked here: ← → along x, ↑ ↓ along y, Page Up, Page Down along z; with Shift they turn."
+_KEYS_HELP = "← → along x, ↑ ↓ along y, Page Up, Page Down along z; with Shift they turn."
 
 
 class Direction(NamedTuple):
@@ -180,8 +180,8 @@ class JogPad(QWidget):
             grid.setVerticalSpacing(2)
         for place, name in enumerate(_AXES):
             self._add_pair(axes, place, name, name, self._key_tip(place))
-        keys = wrapped_label("muted")
-        keys.setText(_KEYS_HELP)
+        self.keys = wrapped_label("muted")
+        self._show_keys(False)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
@@ -189,7 +189,7 @@ class JogPad(QWidget):
         column.addLayout(axes)
         column.addLayout(self._joints)
         column.addWidget(self.status)
-        column.addWidget(keys)
+        column.addWidget(self.keys)
 
     def _add_pair(self, grid: QGridLayout, place: int, what: str | int, name: str, tips: tuple[str, str]) -> None:
         """A name over its two buttons."""
@@ -336,8 +336,15 @@ class JogPad(QWidget):
     # --- leaving ---------------------------------------------------------------------------------------------------
 
     def _on_focus(self, _old: QWidget | None, new: QWidget | None) -> None:
-        if self.held is not None and (new is None or not (new is self or self.isAncestorOf(new))):
+        inside = new is not None and (new is self or self.isAncestorOf(new))
+        self._show_keys(inside)
+        if self.held is not None and not inside:
             self.release()
+
+    def _show_keys(self, on: bool) -> None:
+        """Say whether the keys move the arm now."""
+        self.keys.setText(f"{'Keys are on:' if on else 'Click here to use keys:'} {_KEYS_HELP}")
+        set_role(self.keys, role="" if on else "muted")
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """Another window has the keys now."""
