@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import lru_cache
+
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtGui import QResizeEvent
@@ -10,12 +13,12 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QListWidgetItem,
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_page import InspectPage
-from rvsim.gui.panels.inspect_source_grid import Grid, MakeSheet
+from rvsim.gui.panels.inspect_source_grid import Grid
 from rvsim.gui.panels.inspect_source_scene import printed_tool_items
 from rvsim.gui.panels.inspect_source_words import (
     REMARK,
     TOPIC_TITLES,
-    Sheet,
+    Sheets,
     drawn_sentence,
     heading,
     nothing_known,
@@ -240,17 +243,24 @@ class ErratumView(QWidget):
         if comparison is None:
             self._show_remark()
             return
-        shown = shown_as(robot, preferences)
-        made = sheets(entry, comparison, shown)
-        for index, (title, grid) in enumerate(zip(self.titles, self.grids, strict=True)):
-            seen = index < len(made.sheets)
-            grid.setVisible(seen)
-            title.setVisible(seen and bool(made.sheets[index][0]))
-            if seen:
-                _set_text(title, made.sheets[index][0])
-                grid.show_sheet(f"{heading(entry)}: {made.sheets[index][0] or 'numbers'}", _maker(
-                    index, entry, comparison, robot, preferences))  # fmt: skip
-        self._say(*verdict(entry, comparison, shown), made.units)
+        with_fewer = lru_cache(maxsize=None)(
+            lambda fewer: sheets(entry, comparison, shown_as(robot, preferences, fewer=fewer))
+        )
+        for index in range(len(self.grids)):
+            self._show_sheet(index, heading(entry), with_fewer)
+        text, level = verdict(entry, comparison, shown_as(robot, preferences))
+        self._say(text, level, with_fewer(0).units)
+
+    def _show_sheet(self, index: int, what: str, with_fewer: Callable[[int], Sheets]) -> None:
+        """Show that table of the comparison, if it has so many."""
+        title, grid, made = self.titles[index], self.grids[index], with_fewer(0).sheets
+        seen = index < len(made)
+        name = made[index][0] if seen else ""
+        grid.setVisible(seen)
+        title.setVisible(bool(name))
+        _set_text(title, name)
+        if seen:
+            grid.show_sheet(f"{what}: {name or 'numbers'}", lambda fewer: with_fewer(fewer).sheets[index][1])
 
     def say_drawn(self, text: str) -> None:
         """What is drawn in the scene."""
@@ -281,15 +291,6 @@ class ErratumView(QWidget):
     def _go(self) -> None:
         if self._entry is not None:
             self._session.move_to(self._entry.pose, f"Pose of {heading(self._entry).lower()}")
-
-
-def _maker(index: int, entry: Erratum, comparison: Comparison, robot: Robot, preferences: Preferences) -> MakeSheet:
-    """Makes that table of the comparison with fewer decimals."""
-
-    def make(fewer: int) -> Sheet:
-        return sheets(entry, comparison, shown_as(robot, preferences, fewer=fewer)).sheets[index][1]
-
-    return make
 
 
 def _small(text: str) -> QLabel:

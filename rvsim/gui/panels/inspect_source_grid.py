@@ -72,12 +72,13 @@ class Grid(QWidget):
         )
 
     def _widths(self, sheet: Sheet) -> list[float]:
-        """Of the columns: all alike, as wide as the widest entry would be in bold."""
+        """Of the columns: all alike, as wide as the widest head, or the widest entry if it were bold."""
         bold = number_font(self.font())
         bold.setBold(True)
-        metrics, count = QFontMetricsF(bold), len(sheet.cells[0])
-        texts = [*sheet.columns, *(text for row in sheet.cells for text in row)]
-        return [max(metrics.horizontalAdvance(text) for text in texts)] * count
+        wide, plain = QFontMetricsF(bold), self._metrics()
+        heads = (plain.horizontalAdvance(head) for head in sheet.columns)
+        entries = (wide.horizontalAdvance(text) for row in sheet.cells for text in row)
+        return [max(*heads, *entries, 1.0)] * len(sheet.cells[0])
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Another width: other decimals."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -72,6 +73,7 @@ def heading(entry: Erratum) -> str:
 def shown_as(robot: Robot, preferences: Preferences, *, fewer: int = 0) -> Shown:
     """How a kind of entry is shown; `fewer` decimals where the room is short."""
 
+    @lru_cache(maxsize=len(_KINDS) + 2)
     def shown(kind: str) -> Display:
         own = length_kind(robot) if kind in ("length", "lever") else _KINDS[kind]
         found = display(own, preferences)
@@ -101,7 +103,7 @@ def _columns(entry: Erratum, comparison: Comparison, shown: Shown) -> Sheets:
         for *row, kind in zip(printed, right, gap, kinds, strict=True)
     )
     marks = np.column_stack([wrong, np.zeros_like(wrong), wrong])
-    return Sheets((("", Sheet(("printed", "ours", "difference"), heads, cells, marks)),), "")
+    return Sheets((("", Sheet(("printed", "ours", "off by"), heads, cells, marks)),), "")
 
 
 def _head(name: str, unit: str) -> str:

@@ -34,8 +34,12 @@ def code_position(_robot: Robot, q: FloatArray) -> FloatArray:
 
 def positive_lengths(robot: Robot, q: FloatArray) -> FloatArray:
     """(3,) the tool with a2 and a3 positive, everything else right."""
-    flipped = robot.with_joint(1, a=-robot.joints[1].a).with_joint(2, a=-robot.joints[2].a)
-    return np.asarray(forward_kinematics(flipped, q)[:3, 3])
+    return np.asarray(forward_kinematics(_flipped(robot), q)[:3, 3])
+
+
+@lru_cache(maxsize=4)
+def _flipped(robot: Robot) -> Robot:
+    return robot.with_joint(1, a=-robot.joints[1].a).with_joint(2, a=-robot.joints[2].a)
 
 
 def text_x(robot: Robot, q: FloatArray) -> float:

@@ -201,10 +201,10 @@ _INVERSE = (
         TEXT_POSE, "angle", beta_3_22, _beta, rows=("β",), tool=tool_with(1, shoulder_3_23),
     ),
     Erratum(
-        "004-3.23", "004", "(3.23)", "al5b", "inverse", "The elbow in the same way",
+        "004-3.23", "004", "(3.23)", "al5b", "inverse", "The elbow by atan2 of a ratio too",
         (r"\theta_3 = \operatorname{atan2}(s^2 - a_3^2 - a_4^2,\, 2 a_3 a_4)",),
-        (r"\theta_3 = \mp\arccos\frac{s^2 - a_3^2 - a_4^2}{2 a_3 a_4} \quad\mathrm{with}\quad \theta_2 = "
-         r"\alpha \pm \beta",),
+        (r"\theta_3 = \mp\arccos\frac{s^2 - a_3^2 - a_4^2}{2 a_3 a_4}",
+         r"\theta_2 = \alpha \pm \beta",),
         "The ratio is cos θ₃, and its sign belongs to the sign chosen for θ₂.",
         TEXT_POSE, "angle", elbow_3_23, joint(2), rows=("θ₃",), tool=tool_with(2, elbow_3_23),
     ),

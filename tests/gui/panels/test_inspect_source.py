@@ -59,7 +59,7 @@ def test_a_number_stands_beside_ours_with_the_difference(page_of):
     page = page_of("rv-m1", "000-15")
     page.findChild(QPushButton, "source_pose").click()
     (grid,) = grids(page)
-    assert grid.sheet.columns == ("printed", "ours", "difference")
+    assert grid.sheet.columns == ("printed", "ours", "off by")
     assert grid.sheet.rows == ("θ₃ [°]",)
     assert numbers(grid) == pytest.approx(np.array([[60.0, -50.0, 110.0]]))
     assert grid.sheet.wrong.tolist() == [[True, False, True]]
