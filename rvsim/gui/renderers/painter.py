@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -16,11 +16,12 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QImage, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
-from rvsim.gui.renderers.painter_ink import Stroke, polygon, qcolor
+from rvsim.gui.renderers.painter_ink import Stroke, polygon, qcolor, text_scale
 from rvsim.gui.renderers.painter_lens import BOX_TOP, Lens, Seen, clipped_polygon, look_at
 from rvsim.gui.renderers.painter_lines import (
+    Placed,
     dot_strokes,
-    draw_labels,
+    placed_labels,
     polyline_strokes,
     segments_strokes,
     triad_strokes,
@@ -64,8 +65,8 @@ def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, hei
     for seen in layers.gizmo:  # nothing hides what is to be taken hold of
         for stroke in _line_strokes(seen, lens, None):
             stroke.draw(painter)
-    for seen in layers.labels:
-        draw_labels(painter, seen, lens, scene.background)
+    for placed in _texts(layers.labels, lens, camera, painter.device().devicePixelRatioF(), scene.background):
+        painter.drawImage(placed.at, placed.picture)
 
 
 def _layers(everything: Iterable[Seen[Item]]) -> _Layers:
@@ -129,6 +130,26 @@ def _floor_picture(
             for stroke in _line_strokes(seen, lens, None):
                 stroke.draw(painter)
     return picture
+
+
+def _texts(labels: list[Seen[Labels]], lens: Lens, camera: Camera, ratio: float, background: Color) -> Iterator[Placed]:
+    """Where all texts go; those of the floor stay where they are while the eye rests."""
+    for seen in labels:
+        if seen.item.key.startswith(FLOOR_KEY):
+            yield from _floor_texts(
+                seen.item, camera, int(lens.width), int(lens.height), ratio, background, text_scale()
+            )
+        else:
+            yield from placed_labels(seen, lens, background, ratio)
+
+
+@lru_cache(maxsize=2)
+def _floor_texts(
+    item: Labels, camera: Camera, width: int, height: int, ratio: float, background: Color, _scale: float
+) -> list[Placed]:
+    lens = Lens(camera, width, height)
+    (seen,) = look_at((item,), lens)
+    return placed_labels(Seen(item, seen.eye, seen.pixels), lens, background, ratio)
 
 
 def _paint_ghosts(painter: QPainter, ghosts: list[Seen[Solid]], lens: Lens, smooth: bool) -> None:

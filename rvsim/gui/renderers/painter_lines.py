@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, Qt
-from PySide6.QtGui import QPainter, QPolygonF
+from PySide6.QtGui import QImage, QPainter, QPolygonF
 
 from rvsim.gui.renderers.painter_ink import (
     HALO,
@@ -222,13 +223,25 @@ def _axis_stroke(depth: float, line: FloatArray, color: Color, letter: str, back
     return Stroke(depth, draw)
 
 
-def draw_labels(painter: QPainter, seen: Seen[Labels], lens: Lens, background: Color) -> None:
-    """All texts of an item."""
-    visible = lens.before(seen.eye)
+class Placed(NamedTuple):
+    """A text's picture and where it goes [pixels]."""
+
+    at: QPointF
+    picture: QImage
+
+
+def placed_labels(seen: Seen[Labels], lens: Lens, background: Color, ratio: float) -> list[Placed]:
+    """All texts of an item that are seen, and where, on a device of that pixel ratio."""
     room, scale = label_room(seen.item, lens.width, lens.height), text_scale()
-    for label, (x, y), shown in zip(seen.item.labels, seen.pixels.tolist(), visible.tolist(), strict=True):
+    placed = []
+    for label, (x, y), shown in zip(
+        seen.item.labels, seen.pixels.tolist(), lens.before(seen.eye).tolist(), strict=True
+    ):
         if shown and -200.0 < x < lens.width + 200.0 and -50.0 < y < lens.height + 50.0:
-            draw_label(painter, label, (x, y), background, room, scale)
+            place = (x + scale * label.shift[0], y + scale * label.shift[1])
+            text = placed_text(place, label.text, label.color, label.size, background, ratio, room)
+            placed += [] if text is None else [text]
+    return placed
 
 
 def label_room(item: Labels, width: float, height: float) -> TextRoom:
@@ -245,23 +258,28 @@ def draw_label(
 
 
 def draw_text(
-    painter: QPainter,
-    place: tuple[float, float],
-    text: str,
-    color: Color,
-    size: float,
-    halo: Color,
+    painter: QPainter, place: tuple[float, float], text: str, color: Color, size: float, halo: Color,
     room: TextRoom | None = None,
-) -> None:
+) -> None:  # fmt: skip
+    """A text with a halo, its base line starting at `place` [pixels], where there is room for it."""
+    placed = placed_text(place, text, color, size, halo, painter.device().devicePixelRatioF(), room)
+    if placed is not None:
+        painter.drawImage(placed.at, placed.picture)
+
+
+def placed_text(
+    place: tuple[float, float], text: str, color: Color, size: float, halo: Color, ratio: float, room: TextRoom | None
+) -> Placed | None:
     """A text with a halo, its base line starting at `place` [pixels], on whole pixels of the device.
 
     A text that would be cut by the edges of the `room` is moved inside, or left out where most of it lies outside: a
     number without its sign would be another number.
     """
-    ratio, size = painter.device().devicePixelRatioF(), size * text_scale()
+    size *= text_scale()
     picture, (left, up) = text_picture(text, color, size, halo, ratio), text_anchor(size)
     at: tuple[float, float] | None = (place[0] - left, place[1] - up)
     if room is not None and at is not None:
         at = room.place(*at, picture.width() / ratio, picture.height() / ratio, HALO)
-    if at is not None:
-        painter.drawImage(QPointF(round(at[0] * ratio) / ratio, round(at[1] * ratio) / ratio), picture)
+    if at is None:
+        return None
+    return Placed(QPointF(round(at[0] * ratio) / ratio, round(at[1] * ratio) / ratio), picture)
