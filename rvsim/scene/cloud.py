@@ -51,4 +51,16 @@ def section_items(section: SectionMap, palette: ScenePalette, *, key: str) -> tu
     """The outline of a section where it lies in space; nothing for one without an edge."""
     if not len(section.outline):
         return ()
-    return (Segments(key, section.place(section.outline.reshape(-1, 2)), palette.limit, 1.0),)
+    pieces = merged_pieces(section.outline)
+    return (Segments(key, section.place(pieces.reshape(-1, 2)), palette.limit, 1.0),)
+
+
+def merged_pieces(pieces: FloatArray, most: int = 6) -> FloatArray:
+    """Line pieces (k, 2, 2) of which up to `most` that follow each other have become one."""
+    follows = np.append(False, (pieces[1:, 0] == pieces[:-1, 1]).all(axis=-1))
+    starts = np.flatnonzero(~follows)
+    run = np.cumsum(~follows) - 1
+    first = (np.arange(len(pieces)) - starts[run]) % most == 0
+    begins = np.flatnonzero(first)
+    ends = np.append(begins[1:], len(pieces)) - 1
+    return np.stack([pieces[begins, 0], pieces[ends, 1]], axis=1)

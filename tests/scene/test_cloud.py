@@ -7,7 +7,7 @@ import pytest
 
 from rvsim.files import load_robot
 from rvsim.kinematics.workspace import WorkspaceTask, workspace
-from rvsim.scene.cloud import CLASSES, cloud_items, scale_color, section_items
+from rvsim.scene.cloud import CLASSES, cloud_items, merged_pieces, scale_color, section_items
 from rvsim.scene.palette import DARK, LIGHT, contrast, luminance
 
 
@@ -41,3 +41,16 @@ def test_outlines_lie_in_their_sections() -> None:
     assert side.points[:, 1] == pytest.approx(0.0)  # its plane at home is that of x and z
     assert top.points[:, 2] == pytest.approx(result.top.origin[2])
     assert side.key != top.key
+
+
+def test_pieces_that_follow_each_other_become_one() -> None:
+    line = np.column_stack([np.arange(11.0), np.zeros(11)])
+    pieces = np.stack([line[:-1], line[1:]], axis=1)
+    apart = np.array([[[50.0, 1.0], [51.0, 1.0]]])
+    merged = merged_pieces(np.concatenate([pieces, apart]), most=4)
+    assert merged[..., 0].tolist() == [
+        [0, 4],
+        [4, 8],
+        [8, 10],
+        [50, 51],
+    ]

@@ -43,11 +43,18 @@ def map_image(values: Values, reached: np.ndarray, *, dark: bool) -> np.ndarray:
     return image
 
 
+class _MinusAxis(pg.AxisItem):  # type: ignore[misc]
+    """An axis whose numbers have the minus sign of all others on the screen."""
+
+    def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:
+        return [text.replace("-", "\u2212") for text in super().tickStrings(values, scale, spacing)]
+
+
 class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
     """A section in its own plane: cells, rim, and the tool where it is now. Nothing in it is dragged or zoomed."""
 
     def __init__(self, preferences: Preferences) -> None:
-        super().__init__(background=None)
+        super().__init__(background=None, axisItems={side: _MinusAxis(side) for side in ("left", "bottom")})
         self._preferences = preferences
         self.setObjectName("workspace_map")
         self.setAccessibleName("Section of the workspace")
@@ -80,7 +87,14 @@ class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
         self.rim.setPen(pg.mkPen(theme.text, width=1.4))
         for side, title in zip(("bottom", "left"), titles, strict=True):
             self._dress_axis(side, f"{title} [{shown.suffix.strip()}]")
-        self.setRange(xRange=(low[0], high[0]), yRange=(low[1], high[1]), padding=0.0)
+        self._fit(section, shown)
+
+    def _fit(self, section: SectionMap, shown: Display) -> None:
+        """What is reached, with a little room around it."""
+        centers = section.grid.centers()[section.reached.reshape(-1)]
+        if len(centers):
+            (left, below), (right, above) = centers.min(axis=0) * shown.factor, centers.max(axis=0) * shown.factor
+            self.setRange(xRange=(left, right), yRange=(below, above), padding=0.06)
 
     def _dress_axis(self, side: str, title: str) -> None:
         theme, axis = THEMES[self._preferences["theme"]], self.getAxis(side)

@@ -10,9 +10,9 @@ import numpy as np
 from rvsim.kinematics.workspace.grid import BoolArray, Grid, IntArray
 from rvsim.spatial.arrays import FloatArray
 
-_SWEEP = 721  # points of a curve
-_ROOTS = 91  # steps between which a critical angle is looked for
-_BISECTIONS = 24
+_SWEEP = 361  # points of a curve
+_ROOTS = 73  # steps between which a critical angle is looked for
+_BISECTIONS = 30
 
 Section = Callable[[FloatArray], FloatArray]  # joints (m, k) -> points (m, 2)
 

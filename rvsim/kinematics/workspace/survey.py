@@ -28,7 +28,7 @@ _PILOT = 4 * BLOCK
 _CELLS = 48, 160  # fewest and most along the longer side of a section of samples
 _ASKED_CELLS = 120  # of one whose cells are asked one by one
 _TURNED, _TURNS = 128, 32  # poses of a block that are turned, and how often, where limits of joint 1 matter
-_SLICE = 0.03  # of the height: how thick a section must be where no joint brings a sample into it
+_SLICE = 0.06  # of the height: how thick a section must be where no joint brings a sample into it
 _CLOUD = 20_000
 _UP = np.array([0.0, 0.0, 1.0])
 
