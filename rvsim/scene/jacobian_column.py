@@ -42,7 +42,7 @@ def column_items(robot: Robot, q: ArrayLike, joint: int, speed: str, palette: Sc
     if robot.joints[joint].revolute:
         items += _turning(o, p, z, robot.size, palette)
         labels += [
-            Label(0.5 * (o + p), f"p − o{sign}", palette.text, (9.0, -9.0), 12.5),
+            Label(o + 0.4 * (p - o), f"p − o{sign}", palette.text, (9.0, -9.0), 12.5),
             _at_end(p, np.cross(z, p - o), f"z{sign} × (p − o{sign})   {speed}", palette),
         ]
     else:
@@ -82,4 +82,4 @@ def _arrow(
 
 
 def _at_end(p: FloatArray, v: FloatArray, text: str, palette: ScenePalette) -> Label:
-    return Label(p + VELOCITY_SCALE * v, text, palette.actual, (8.0, -12.0), 12.5)
+    return Label(p + VELOCITY_SCALE * v, text, palette.actual, (8.0, -24.0), 12.5)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QEvent, QModelIndex, QObject, Qt, Signal
-from PySide6.QtGui import QColor, QFocusEvent, QPainter, QPalette, QPen
+from PySide6.QtGui import QColor, QFocusEvent, QFont, QFontMetricsF, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QHeaderView, QStyledItemDelegate, QStyleOptionViewItem, QTableView, QWidget
 
 from rvsim.gui.panels.tables import RIGHT, Index, dot, fit_height, text_metrics
@@ -15,6 +15,7 @@ from rvsim.gui.theme import number_font
 from rvsim.robot.arrays import FloatArray
 
 _TINTS = ("#d9730d", "#1f6feb")  # of negative and of positive numbers
+_CELL_MARGIN = 10.0
 _STRONGEST = 0.34  # a tint, and the text on it still has its contrast
 
 
@@ -117,6 +118,8 @@ def _shares(rows: tuple[Row, ...], values: FloatArray) -> FloatArray:
 class _CellDelegate(QStyledItemDelegate):
     """Paints a number on its tint: the style sheet's way takes ten times as long."""
 
+    shrunk = 1.0  # how much smaller than the table's the letters are, where columns are narrow
+
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
         """The tint, the number, and two lines beside the column that is lit."""
         view: Any = option  # its fields are known to no type checker
@@ -126,9 +129,11 @@ class _CellDelegate(QStyledItemDelegate):
         tint = QColor(_TINTS[share > 0.0])
         tint.setAlphaF(_STRONGEST * abs(share))
         painter.fillRect(view.rect.adjusted(1, 1, 0, 0), tint)
-        painter.setFont(view.font)
+        font = QFont(view.font)
+        font.setPointSizeF(self.shrunk * font.pointSizeF())
+        painter.setFont(font)
         painter.setPen(view.palette.color(QPalette.ColorRole.Text))
-        painter.drawText(view.rect.adjusted(2, 0, -4, 0), RIGHT, model.text(index.row(), index.column()))
+        painter.drawText(view.rect.adjusted(2, 0, -5, 0), RIGHT, model.text(index.row(), index.column()))
         if index.column() == model.lit:
             painter.setPen(QPen(view.palette.color(QPalette.ColorRole.Highlight), 2))
             for x in (view.rect.left() + 1, view.rect.right()):
@@ -155,7 +160,8 @@ class JacobianTable(QTableView):
         self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setTabKeyNavigation(False)
-        self.setItemDelegate(_CellDelegate(self))
+        self._cells = _CellDelegate(self)
+        self.setItemDelegate(self._cells)
         self.setFont(number_font(self.font()))
         columns, rows = self.horizontalHeader(), self.verticalHeader()
         columns.setMinimumSectionSize(24)
@@ -190,6 +196,14 @@ class JacobianTable(QTableView):
             self.jacobian.lit = column
             self.viewport().update()
             self.lit.emit(column)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """All numbers in letters of one size, in which the longest fits its column."""
+        model, metrics = self.jacobian, QFontMetricsF(self.font())
+        places = [(row, column) for row in range(model.rowCount()) for column in range(model.columnCount())]
+        longest = max((metrics.horizontalAdvance(model.text(*place)) for place in places), default=0.0)
+        self._cells.shrunk = min(1.0, (self.columnWidth(0) - _CELL_MARGIN) / max(longest, 1.0))
+        super().paintEvent(event)
 
     def leaveEvent(self, event: QEvent) -> None:
         """What the keyboard chose is lit again."""
