@@ -69,6 +69,11 @@ class Stage(QObject):
         """Where the scene is shown."""
         return self._view
 
+    @property
+    def motion(self) -> MotionControl:
+        """What moves the arm that is shown."""
+        return self._motion
+
     def show(self) -> None:
         """Compose the present moment and hand it to the view."""
         self._glide.stop()

@@ -1,0 +1,197 @@
+"""The mass data as two tables, to be typed into: masses with their centres, and moments of inertia."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
+from PySide6.QtGui import QFont, QGuiApplication
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHeaderView,
+    QLineEdit,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QTableView,
+    QWidget,
+)
+
+from rvsim.errors import ExpressionError
+from rvsim.expressions import evaluate_in
+from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot, plain_table
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import Display, Kind, display, format_number, length_kind, without_unit
+from rvsim.robot import Robot
+from rvsim.robot.mass_edits import MassKey, mass_value
+
+_TOP = QModelIndex()
+
+
+class MassColumn(NamedTuple):
+    """A column: its key, header, and what its tooltip says."""
+
+    key: MassKey
+    head: str
+    tip: str
+
+
+_COM = "of the centre of mass, in the link's DH frame"
+_MOMENT = "Moment of inertia about the centre of mass and the link's"
+COLUMNS = (
+    MassColumn("mass", "m", "Mass of the link"),
+    *(MassColumn(key, key, f"{key} {_COM}") for key in ("x", "y", "z")),
+    MassColumn("xx", "Ixx", f"{_MOMENT} x axis"),
+    MassColumn("yy", "Iyy", f"{_MOMENT} y axis"),
+    MassColumn("zz", "Izz", f"{_MOMENT} z axis"),
+)
+CENTER_COLUMNS, INERTIA_COLUMNS = range(1, 5), range(5, 8)
+
+
+def mass_kind(robot: Robot, key: MassKey) -> Kind:
+    """What a number of a link is shown as."""
+    if key == "mass":
+        return "mass"
+    return length_kind(robot) if len(key) == 1 else "inertia"
+
+
+class MassModel(QAbstractTableModel):
+    """One row a link; `edited(link, key, value)` tells an SI value that has been typed, `refused` why not."""
+
+    edited = Signal(int, str, float)
+    refused = Signal(str)
+
+    def __init__(self, robot: Robot, preferences: Preferences) -> None:
+        super().__init__()
+        self._robot, self._preferences = robot, preferences
+
+    def show_robot(self, robot: Robot) -> None:
+        """Show the masses of an arm; open editors survive if the links are as many."""
+        resets = robot.dof != self._robot.dof
+        if resets:
+            self.beginResetModel()
+        self._robot = robot
+        if resets:
+            self.endResetModel()
+        else:
+            self.dataChanged.emit(self.index(0, 0), self.index(robot.dof - 1, len(COLUMNS)))
+        self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, len(COLUMNS))
+
+    def rowCount(self, parent: Index = _TOP) -> int:
+        """One a link."""
+        return 0 if parent.isValid() else self._robot.dof
+
+    def columnCount(self, parent: Index = _TOP) -> int:
+        """The link and its numbers."""
+        return 0 if parent.isValid() else 1 + len(COLUMNS)
+
+    def flags(self, index: Index) -> Qt.ItemFlag:
+        """Numbers can be edited, names cannot."""
+        flags = super().flags(index)
+        return flags | Qt.ItemFlag.ItemIsEditable if index.isValid() and index.column() > 0 else flags
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """What stands in a cell."""
+        joint, column = self._robot.joints[index.row()], index.column()
+        match role:
+            case Qt.ItemDataRole.DisplayRole | Qt.ItemDataRole.EditRole:
+                return f"J{index.row() + 1}" if column == 0 else self._text(index, role == Qt.ItemDataRole.EditRole)
+            case Qt.ItemDataRole.TextAlignmentRole:
+                return LEFT if column == 0 else RIGHT
+            case Qt.ItemDataRole.DecorationRole:
+                return dot(joint.color) if column == 0 else None
+            case Qt.ItemDataRole.FontRole:
+                return self._font(index) if column > 0 else None
+            case Qt.ItemDataRole.ToolTipRole:
+                return self._tip(index)
+        return None
+
+    def _text(self, index: Index, whole: bool) -> str:
+        if not self._robot.masses:
+            return "0" if whole else "\u2013"
+        key, shown = COLUMNS[index.column() - 1].key, self._shown(index)
+        value = mass_value(self._robot.masses[index.row()], key) * shown.factor
+        return f"{value:.12g}" if whole else format_number(value, shown.decimals)
+
+    def _shown(self, index: Index) -> Display:
+        return display(mass_kind(self._robot, COLUMNS[index.column() - 1].key), self._preferences)
+
+    def _font(self, index: Index) -> QFont | None:
+        masses = self._robot.masses
+        if not masses or not masses[index.row()].assumed:
+            return None
+        font = QFont(QGuiApplication.font())
+        font.setItalic(True)
+        return font
+
+    def _tip(self, index: Index) -> str:
+        name = f"The link behind “{self._robot.joint_names[index.row()]}”"
+        if not self._robot.masses:
+            return f"{name}: nothing is known. Double-click or type to enter a number."
+        link = self._robot.masses[index.row()]
+        return f"{name}. {'Assumed: ' if link.assumed else 'From: '}{link.source or 'its robot file'}."
+
+    def setData(self, index: Index, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:
+        """Take a typed text: a number or an expression in the shown unit."""
+        if role != Qt.ItemDataRole.EditRole or index.column() == 0:
+            return False
+        text, shown = str(value), self._shown(index)
+        if text == self._text(index, whole=True):
+            return True
+        try:
+            unit = shown.suffix.strip() if len(COLUMNS[index.column() - 1].key) == 1 else ""
+            number = evaluate_in(unit, without_unit(text, shown.suffix)) / shown.factor
+        except ExpressionError as problem:
+            self.refused.emit(str(problem))
+            return False
+        self.edited.emit(index.row(), COLUMNS[index.column() - 1].key, number)
+        return True
+
+    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """Letters with their units."""
+        if orientation == Qt.Orientation.Vertical:
+            return None
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return LEFT if section == 0 else RIGHT
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return "The link behind that joint" if section == 0 else COLUMNS[section - 1].tip
+        if role != Qt.ItemDataRole.DisplayRole:
+            return None
+        if section == 0:
+            return "link"
+        column = COLUMNS[section - 1]
+        return f"{column.head} {display(mass_kind(self._robot, column.key), self._preferences).suffix.strip()}"
+
+
+class NumberDelegate(QStyledItemDelegate):
+    """Editors that fit into their cells."""
+
+    def createEditor(self, parent: QWidget, _option: QStyleOptionViewItem, index: Index) -> QWidget:
+        """A line without the padding of boxes that stand alone."""
+        line = QLineEdit(parent)
+        line.setObjectName("mass_cell_editor")
+        line.setAccessibleName(str(index.model().headerData(index.column(), Qt.Orientation.Horizontal)))
+        line.setAlignment(Qt.AlignmentFlag.AlignRight)
+        line.setStyleSheet("padding: 0 2px; min-height: 0; border-radius: 0;")
+        return line
+
+    def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, _index: Index) -> None:
+        """The whole cell."""
+        editor.setGeometry(option.rect)
+
+
+def mass_table(name: str, title: str, model: MassModel, columns: Iterable[int]) -> QTableView:
+    """A view of some columns of the model."""
+    table = plain_table(name, title, model)
+    shown = {0, *columns}
+    for column in range(1 + len(COLUMNS)):
+        table.setColumnHidden(column, column not in shown)
+    table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+    table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+    table.setEditTriggers(
+        QAbstractItemView.EditTrigger.DoubleClicked
+        | QAbstractItemView.EditTrigger.EditKeyPressed
+        | QAbstractItemView.EditTrigger.AnyKeyPressed
+    )
+    table.setItemDelegate(NumberDelegate(table))
+    return table

@@ -1,0 +1,102 @@
+"""The parts of the joint torques as a table: gravity, Coriolis, inertia, and their sum."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt
+from PySide6.QtWidgets import QHeaderView, QTableView
+
+from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot, plain_table
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import display, format_number, torque_kind
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+_TOP = QModelIndex()
+PARTS = ("gravity", "Coriolis", "inertia", "sum τ")
+_MORE = 1  # decimals: a small arm's parts are small
+_TIPS = (
+    "The joint",
+    "g(q): what holds the arm still",
+    "C(q, q̇) q̇: Coriolis and centrifugal",
+    "M(q) q̈: what accelerates it",
+    "What the drive has to give, without friction",
+)
+
+
+class PartsModel(QAbstractTableModel):
+    """One row a joint; `values` (n, 4) [N m, N]."""
+
+    def __init__(self, robot: Robot, preferences: Preferences) -> None:
+        super().__init__()
+        self._robot, self._preferences = robot, preferences
+        self.values: FloatArray = np.zeros((robot.dof, len(PARTS)))
+
+    def show_values(self, robot: Robot, values: FloatArray) -> None:
+        """Show these (n, 4) of an arm."""
+        resets = robot is not self._robot
+        if resets:
+            self.beginResetModel()
+        self._robot, self.values = robot, values
+        if resets:
+            self.endResetModel()
+        else:
+            self.dataChanged.emit(self.index(0, 1), self.index(robot.dof - 1, len(PARTS)))
+
+    def rowCount(self, parent: Index = _TOP) -> int:
+        """One a joint."""
+        return 0 if parent.isValid() else len(self.values)
+
+    def columnCount(self, parent: Index = _TOP) -> int:
+        """The joint and the parts."""
+        return 0 if parent.isValid() else 1 + len(PARTS)
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """What stands in a cell."""
+        joint, column = index.row(), index.column()
+        match role:
+            case Qt.ItemDataRole.DisplayRole:
+                return f"J{joint + 1}" if column == 0 else self._text(joint, column - 1)
+            case Qt.ItemDataRole.TextAlignmentRole:
+                return LEFT if column == 0 else RIGHT
+            case Qt.ItemDataRole.DecorationRole:
+                return dot(self._robot.joints[joint].color) if column == 0 else None
+            case Qt.ItemDataRole.ToolTipRole:
+                return self._tip(joint)
+        return None
+
+    def _text(self, joint: int, part: int) -> str:
+        shown = display(torque_kind(self._robot, joint), self._preferences)
+        text = format_number(float(self.values[joint, part]) * shown.factor, shown.decimals + _MORE)
+        return text if len(set(self.units())) == 1 or part < len(PARTS) - 1 else text + shown.suffix
+
+    def _tip(self, joint: int) -> str:
+        unit = self.units()[joint]
+        parts = zip(PARTS, self.values[joint].tolist(), strict=True)
+        return f"{self._robot.joint_names[joint]}: " + ", ".join(f"{name} {value:.6g} {unit}" for name, value in parts)
+
+    def units(self) -> list[str]:
+        """The unit of each joint."""
+        kinds = (torque_kind(self._robot, joint) for joint in range(self._robot.dof))
+        return [display(kind, self._preferences).suffix.strip() for kind in kinds]
+
+    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """The parts; the unit stands above the sum where all joints share it."""
+        if orientation == Qt.Orientation.Vertical:
+            return None
+        if role == Qt.ItemDataRole.DisplayRole:
+            return ("joint", *PARTS)[section]
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return _TIPS[section]
+        return {Qt.ItemDataRole.TextAlignmentRole: LEFT if section == 0 else RIGHT}.get(Qt.ItemDataRole(role))
+
+
+def parts_table(model: PartsModel) -> QTableView:
+    """The view of a model."""
+    table = plain_table("dynamics_table", "Joint torques by their cause", model)
+    table.setSelectionMode(QTableView.SelectionMode.NoSelection)
+    table.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+    return table

@@ -1,0 +1,77 @@
+"""What the Dynamics page says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import format_number, format_quantity
+from rvsim.lab.worked import Equation
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+# [m/s²] at the surface: standard gravity, and the equatorial values of the planetary fact sheets.
+PLACES: Mapping[str, str] = {"9.80665": "Earth", "1.62": "Moon", "3.71": "Mars", "0.0": "none"}
+_LARGE_ARM = 0.5  # [kg m²]
+
+
+def rates_note(time: float | None) -> str:
+    """Where the rates come from."""
+    if time is None:
+        return "Type rates, or play a motion: then they are the motion's own."
+    return f"From the motion, {format_number(time, 2)} s after its start."
+
+
+def energy_text(kinetic: float, potential: float, power: float, preferences: Preferences) -> str:
+    """Both energies and the power of the drives."""
+    T, V = (format_quantity(value, "energy", preferences) for value in (kinetic, potential))
+    decimals = 2 + preferences["extra_decimals"]
+    return f"Kinetic {T}, potential {V}, power of the drives {format_number(power, decimals)} W."
+
+
+def no_mass_text(robot: Robot) -> str:
+    """The empty state."""
+    return (
+        f"No mass data: no source says what the links of the {robot.title} weigh, so nothing can be said about its "
+        "dynamics. Type masses below, or start with a guess: the arm becomes a copy of your own, which can be saved."
+    )
+
+
+def mass_note(robot: Robot) -> str:
+    """What the tables hold, where it comes from, how it is changed."""
+    parts = ["Centre of mass and moments in the link's DH frame."]
+    if any(link.assumed for link in robot.masses):
+        parts.append("Italic: assumed.")
+    sources = dict.fromkeys(link.source for link in robot.masses if link.source)
+    if sources:
+        parts.append(f"Source: {'; '.join(sources)}.")
+    return " ".join([*parts, "Double-click a number to change it: the arm follows on a copy of your own."])
+
+
+def torques_title(units: Sequence[str]) -> str:
+    """With the unit that all joints share; else it stands at the sums."""
+    return f"Joint torques, {units[0]}" if len(set(units)) == 1 else "Joint torques"
+
+
+def matrix_note(robot: Robot) -> str:
+    """Its units, and what it is for."""
+    units = "kg m²" if robot.is_revolute.all() else "kg m² between turning joints, kg between sliding ones, else kg m"
+    return f"In {units}. Kinetic energy = ½ q̇ᵀ M q̇."
+
+
+def matrix_decimals(robot: Robot) -> int:
+    """A small arm's entries are small: as many as show the inertia of its wrist."""
+    stretched = sum(link.mass for link in robot.masses) * robot.size**2
+    return 4 if stretched > _LARGE_ARM else 5
+
+
+def matrix_equation(M: FloatArray, decimals: int) -> Equation:
+    """M(q) with its numbers, SI."""
+    rows = (" & ".join(_entry(value, decimals) for value in row) for row in M.tolist())
+    return Equation("M(q)", "", "", "\\begin{bmatrix} " + " \\\\ ".join(rows) + " \\end{bmatrix}")
+
+
+def _entry(value: float, decimals: int) -> str:
+    text = f"{abs(value):.{decimals}f}"
+    sign = "{-}" if value < 0.0 and float(text) != 0.0 else "\\phantom{-}"
+    return sign + text
