@@ -78,7 +78,9 @@ def _nearest(robot: Robot, family: SingularFamily, here: FloatArray, limits: Flo
 
 
 def _apart(other: SingularFamily, family: SingularFamily) -> bool:
-    return other is not family and other.part == family.part
+    """Whether one can be in `family` without being in the other."""
+    own = {term.symbol for term in family.terms}
+    return any(term.symbol not in own for term in other.terms)
 
 
 class _Search:

@@ -93,8 +93,8 @@ class Barrier(NamedTuple):
             return "Singular: upper arm, forearm and hand are in line."
         numbers = ", ".join(f"{value:.3f}" for value in self.sigma)
         return (
-            f"Not singular: σ = {numbers}. A barrier: joint {self.stop + 1} is at its stop, and the other three joints "
-            "have lost a direction."
+            f"Not singular: σ = {numbers} m. A barrier: joint {self.stop + 1} is at its stop, and the other three "
+            "joints have lost a direction."
         )
 
 

@@ -24,22 +24,30 @@ def lost_motion_items(
 ) -> tuple[Item, ...]:
     """The motion as a double arrow of `length` [m] to either side, where its line passes the tip (3,).
 
-    A turn is two bent arrows about its dashed axis; a screw has both.
+    A turn is two bent arrows about its dashed axis.
     """
     color, place = palette.limit, tip + motion.offset
     base = f"{ON_TOP}{key}"
     items: list[Item] = []
-    if motion.kind != "turn":
+    if motion.kind == "move":
         for side, way in (("ahead", length), ("back", -length)):
             items += arrow_items(
                 f"{base}.{side}", place, way * motion.direction, color, palette, width=_WIDTH, dashed=True
             )
-    if motion.kind != "move":
+    else:
         ends = np.stack([place - 0.7 * length * motion.direction, place + 0.7 * length * motion.direction])
         items.append(Polyline(f"{base}.axis", ends, color.faded(0.8), _AXIS_WIDTH, dashed=True))
         for side, turn in (("left", _ARC), ("right", -_ARC)):
             items += turn_arrow_items(
-                f"{base}.{side}", place, motion.direction, turn, 0.5 * length, color, palette, width=_WIDTH, dashed=True
+                f"{base}.{side}",
+                place,
+                motion.direction,
+                turn,
+                0.32 * length,
+                color,
+                palette,
+                width=_WIDTH,
+                dashed=True,
             )
     if float(np.linalg.norm(motion.offset)) > _ASIDE * length:
         lead = np.stack([tip, place])

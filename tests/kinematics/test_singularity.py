@@ -174,6 +174,21 @@ def test_upright_on_its_base_axis_a_5r_arm_loses_a_way_and_a_turn():
     assert motions[0].direction[2] == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.parametrize("name", ["ur5e", "rv-1a"])
+def test_a_motion_lost_on_its_own_asks_no_joint_speed_that_there_is(name):
+    robot = load_robot(name)
+    way = go_to_singularity(robot, "wrist", robot.home)
+    assert way.q is not None
+    found = singularity(robot, way.q)
+    motions = lost_motions(found.whole, robot.size)
+    assert [(motion.kind, motion.alone) for motion in motions] == [("move", True), ("turn", True)]
+    for motion in motions:
+        twist = np.zeros(6)
+        twist[3 * (motion.kind == "turn") :][:3] = motion.direction
+        qd = np.linalg.lstsq(found.J, twist, rcond=1e-9)[0]
+        assert np.linalg.norm(found.J @ qd - twist) > 0.05
+
+
 def test_the_planar_arm_is_judged_by_its_own_task():
     robot = load_robot("planar")
     found = singularity(robot, [0.5, 0.0])

@@ -75,7 +75,7 @@ def test_only_the_first_of_them_is_singular_and_the_set_31_is_not():
     assert [barrier.printed for barrier in found if barrier.singular] == ["(30)"]
     first = next(barrier for barrier in found if barrier.printed == "(31)")
     np.testing.assert_allclose(first.sigma, [0.470, 0.217, 0.112], atol=5e-4)
-    assert first.verdict.startswith("Not singular: σ = 0.470, 0.217, 0.112. A barrier: joint 2 is at its stop")
+    assert first.verdict.startswith("Not singular: σ = 0.470, 0.217, 0.112 m. A barrier: joint 2 is at its stop")
     assert singularity(robot, first.q).position.rank == 3
 
 

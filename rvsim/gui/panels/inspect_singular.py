@@ -213,10 +213,10 @@ class SingularPage(InspectPage):
             self._place.addWidget(self.block)
 
     def _show_verdict(self, found: Singularity) -> None:
-        light = light_of(found.task, self.threshold.quantity)
-        names = ", ".join(family.name for family in found.families)
+        light = light_of(found, self.threshold.quantity)
+        names = ", ".join(family.name for family in found.families or found.position_families)
         self.light.show_light(light, names)
-        lost = lost_sentence(_lost(found), found.task, found.robot, self._preferences)
+        lost = lost_sentence(_lost(found), _judged(found), found.robot, self._preferences)
         for label, text in ((self.lost, lost), (self.reason, verdict_sentence(found))):
             label.setText(text)
             label.setVisible(bool(text))
@@ -256,9 +256,12 @@ class SingularPage(InspectPage):
 
 
 def _lost(found: Singularity) -> tuple[LostMotion, ...]:
-    """What is lost for the arm's own task, else for the place alone."""
-    own = lost_motions(found.task, found.robot.size)
-    return own or lost_motions(found.position, found.robot.size)
+    return lost_motions(_judged(found), found.robot.size)
+
+
+def _judged(found: Singularity) -> Measures:
+    """The numbers of the arm's own task; those of the place where it alone is singular."""
+    return found.task if found.task.lost is not None else found.position
 
 
 def _other(found: Singularity) -> Measures:

@@ -4,7 +4,7 @@ factors of det J for a spherical wrist, figure 4.1 of source 004 for the planar 
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from rvsim.gui.formula_view import EquationsView, Typesetter
@@ -59,8 +59,8 @@ class SourceBlock(ArmBlock):
     def __init__(self, typesetter: Typesetter) -> None:
         super().__init__(
             "What source 000 says",
-            "It looks at the tip's place alone: Ĵ, (26) and (27), of joints 1 to 4, in metres a radian. Its θ₁ turns "
-            "the other way round; all other entries are right. Its three minors, (28), worked out:",
+            "It looks at the tip's place alone: Ĵ, (26) and (27), of joints 1 to 4, in its decimetres. Its θ₁ turns "
+            "the other way round; all other entries are right. Below, its three minors, (28), worked out.",
         )
         self._robot: Robot | None = None
         self.grid = NumberGrid("Position Jacobian of source 000")
@@ -69,7 +69,7 @@ class SourceBlock(ArmBlock):
         self.note = wrapped_label("muted")
         self.note.setText(
             "All vanish where sin θ₃ = 0 and sin θ₄ = 0, its (29) and (30): right. They vanish at r = 0 too, the tip "
-            "on the base axis: it forgets that. The other poses of its list:"
+            "on the base axis: it forgets that. The poses that its procedure finds:"
         )
         self.list = QVBoxLayout()
         self.list.setSpacing(10)
@@ -82,8 +82,10 @@ class SourceBlock(ArmBlock):
     def show_pose(self, robot: Robot, q: FloatArray) -> None:
         """Ĵ, its minors, and the list of barriers."""
         J = position_jacobian(robot, q)
-        self.grid.show_numbers([[format_number(float(v), 4) for v in row] for row in J], ("θ₁", "θ₂", "θ₃", "θ₄"))
-        self.minors.show_values([minor.value for minor in minors(robot, q)], " m³")
+        self.grid.show_numbers(
+            [[format_number(10.0 * float(v), 3) for v in row] for row in J], ("θ₁", "θ₂", "θ₃", "θ₄")
+        )
+        self.minors.show_values([1e3 * minor.value for minor in minors(robot, q)], " dm³")
         if robot is not self._robot:
             self._robot = robot
             self._list_barriers(barriers(robot, q))
@@ -166,7 +168,9 @@ class PlanarBlock(ArmBlock):
         )
         self.ellipses = QCheckBox("Ellipses along the bend of the elbow")
         self.ellipses.setObjectName("singular_ellipses")
-        self.ellipses.setToolTip("Draw the velocity ellipse at every 30° of joint 2, with joint 1 as it is")
+        self.ellipses.setToolTip(
+            "Draw the velocity ellipse, at half its size, at every 30° of joint 2, with joint 1 as it is"
+        )
         self.ellipses.toggled.connect(lambda _: self.changed.emit())
         self._stretched: FloatArray = np.zeros(2)
         self.column.addWidget(self.ellipses)
@@ -194,7 +198,7 @@ class _Values(QWidget):
             view.show_equations([Equation(left, formula, "", "")])
             label.setObjectName(f"{name}_{row + 1}")
             grid.addWidget(view, row, 0)
-            grid.addWidget(label, row, 1)
+            grid.addWidget(label, row, 1, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop)
 
     def show_values(self, values: list[float], unit: str) -> None:
         """One value a formula."""

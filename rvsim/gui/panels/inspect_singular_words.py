@@ -28,6 +28,7 @@ class Light(NamedTuple):
 
 CLEAR = Light("good", "●", "Clear of singularities")
 CLOSE = Light("warning", "▲", "Close to a singularity")
+PLACE_SINGULAR = Light("warning", "▲", "The place alone is singular")
 SINGULAR = Light("error", "✖", "Singular")
 
 TASK_TITLES = {6: "Tool", 3: "Place", 4: "Place, yaw", 2: "x, y"}
@@ -64,10 +65,13 @@ def small_number(value: float) -> str:
     return format_number(value, 4) if abs(value) >= 5e-4 else f"{value:.1e}".replace("-", _MINUS)
 
 
-def light_of(measures: Measures, threshold: float) -> Light:
-    """Which light is on for these numbers."""
+def light_of(found: Singularity, threshold: float) -> Light:
+    """Which light is on."""
+    measures = found.task
     if measures.rank < measures.full_rank:
         return SINGULAR
+    if measures is found.whole and found.position.rank < found.position.full_rank:
+        return PLACE_SINGULAR
     ratio = measures.sigma_min / float(measures.singular_values[0])
     return CLOSE if ratio < threshold else CLEAR
 
@@ -76,7 +80,7 @@ def verdict_sentence(found: Singularity) -> str:
     """The active families in words, or "" where there is none."""
     sentences = [f"{family.name.capitalize()} ({family.kind}): {family.sentence}" for family in found.families]
     sentences += [
-        f"Only the place is singular, {family.name} ({family.kind}): {family.sentence}"
+        f"{family.name.capitalize()} ({family.kind}): {family.sentence} Turning the tool is as free as ever."
         for family in found.position_families
         if not found.families
     ]
@@ -89,7 +93,7 @@ def verdict_sentence(found: Singularity) -> str:
 def lost_sentence(motions: tuple[LostMotion, ...], found: Measures, robot: Robot, preferences: Preferences) -> str:
     """What the tool cannot do here, one line a motion."""
     lines = [_motion(motion, robot, preferences) for motion in motions]
-    if len(lines) > found.full_rank - found.rank:
+    if sum(not motion.alone for motion in motions) > found.full_rank - found.rank:
         lines.append(f"With {robot.dof} joints one of these is always missing.")
     return "\n".join(lines)
 
@@ -97,14 +101,11 @@ def lost_sentence(motions: tuple[LostMotion, ...], found: Measures, robot: Robot
 def _motion(motion: LostMotion, robot: Robot, preferences: Preferences) -> str:
     way = direction_text(motion.direction)
     if motion.kind == "turn":
-        return f"Cannot turn about {way}."
+        return f"Cannot turn about {way}{' with the tip at rest' if motion.alone else ''}."
     away = float(np.linalg.norm(motion.offset))
     distance = format_quantity(away, length_kind(robot), preferences)
     line = "" if away < 1e-4 * robot.size else f" on the dashed line, {distance} beside the tip"
-    if motion.kind == "move":
-        return f"Cannot move along {way}{line}."
-    pitch = format_quantity(abs(motion.pitch), length_kind(robot), preferences)
-    return f"Cannot screw along {way}{line}: {pitch} for each radian of turning."
+    return f"Cannot move along {way}{' without turning' if motion.alone else line}."
 
 
 def direction_text(direction: FloatArray) -> str:
@@ -127,9 +128,7 @@ def value_text(family: SingularFamily, q: FloatArray, robot: Robot, preferences:
     """The terms as they are now."""
     kinds = [length_kind(robot) if term.is_length else "number" for term in family.terms]
     shown = [
-        format_quantity(float(value), kind, preferences)
-        if kind != "number"
-        else format_number(float(value), 3 + preferences["extra_decimals"])
+        format_quantity(float(value), kind, preferences) if kind != "number" else small_number(float(value))
         for value, kind in zip(family.values(q), kinds, strict=True)
     ]
     return f"now {' and '.join(shown)}"
@@ -182,14 +181,16 @@ def _round(value: float) -> float:
 def scale_sentence(robot: Robot, part: str, kinds: tuple[str, ...], preferences: Preferences) -> str:
     """What the drawn ellipsoids mean, and their scale."""
     lines = []
-    together = {"velocity": "√Σq̇² = 1 rad/s", "force": "√Στ² = 1 N m"}
-    if not robot.is_revolute.all():
-        together = {"velocity": "√Σq̇² = 1 (rad/s, m/s)", "force": "√Στ² = 1 (N m, N)"}
+    turning = bool(robot.is_revolute.all())
+    together = {
+        "velocity": f"joint speeds of norm 1{' rad/s' if turning else ''}",
+        "force": f"joint torques of norm 1{' N m' if turning else ''}",
+    }
     for kind in kinds:
         factor, longest, unit = ellipsoid_scale(robot, part, kind)
         drawn, cut = (_drawn(robot, value, preferences) for value in (factor, longest))
         end = f", cut at {cut}" if kind == "force" else ""
-        lines.append(f"{kind.capitalize()}: for {together[kind]}; 1 {unit} is drawn as {drawn}{end}.")
+        lines.append(f"{kind.capitalize()} for {together[kind]}: 1 {unit} is drawn as {drawn}{end}.")
     return "\n".join(lines)
 
 
