@@ -65,6 +65,7 @@ class VelocityPage(InspectPage):
         for label, part in ((self.verdict, "verdict"), (self.test, "rank_test"), (self.damping, "damping")):
             label.setObjectName(f"velocity_{part}")
         set_role(self.damping, level="warning")
+        self.verdict.setToolTip("Nearest: in least squares, with lengths counted in sizes of the arm.")
         self.assumed.setText("* assumed: no source gives this top speed.")
         self.acceleration = AccelerationSection(session, preferences)
         self.pad = JogPad(session, preferences, lambda: self.frame)
