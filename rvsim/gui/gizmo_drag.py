@@ -58,17 +58,23 @@ def freedom_of(robot: Robot, task: str, solver: str) -> Freedom:
     return Freedom("xyz", (), "position")
 
 
-def handles_of(freedom: Freedom, axes: FloatArray) -> tuple[Handle, ...]:
-    """The handles for a freedom; `axes` (n, 3) are those of the joints, base coordinates."""
+def handles_of(freedom: Freedom, axes: FloatArray, own: FloatArray | None = None) -> tuple[Handle, ...]:
+    """The handles for a freedom; `axes` (n, 3) are those of the joints, base coordinates.
+
+    Where the tool can go anywhere, arrows and squares may lie along the columns of `own` (3, 3), its own axes, and so
+    may the rings of an arm that can turn it anyhow. Others lie along the base's.
+    """
     base = np.eye(3)
-    arrows = [Handle("axis", axis, base[_AXES.index(axis)], _AXES.index(axis)) for axis in freedom.axes]
+    along = own.T if own is not None and freedom.axes == _AXES else base
+    about = along if len(freedom.rings) == len(_AXES) else base
+    arrows = [Handle("axis", axis, along[_AXES.index(axis)], _AXES.index(axis)) for axis in freedom.axes]
     planes = [
-        Handle("plane", plane, base[normal], normal)
+        Handle("plane", plane, along[normal], normal)
         for normal, plane in enumerate(_PLANES)
         if set(plane) <= set(freedom.axes)
     ]
     rings = [
-        Handle("ring", name, base[_AXES.index(name)], _AXES.index(name))
+        Handle("ring", name, about[_AXES.index(name)], _AXES.index(name))
         if joint < 0
         else Handle("ring", name, axes[joint], 1 if name == "pitch" else 2)
         for name, joint in freedom.rings
@@ -82,14 +88,17 @@ class GizmoDrag(QObject):
 
     Signals:
         switched(on): the gizmo has come or gone.
+        axes_switched(on): its axes are the tool's own, or the base's again.
     """
 
     switched = Signal(bool)
+    axes_switched = Signal(bool)
 
     def __init__(self, control: TargetControl, view: SceneView, stage: Stage, preferences: Preferences) -> None:
         super().__init__(view)
         self._control, self._view, self._stage, self._preferences = control, view, stage, preferences
         self._lit = ""
+        self._tool_axes = False
         self._grip: Grip | None = None
         self._amount = 0.0
         self._before = control.session.experiment  # when the drag began
@@ -102,6 +111,21 @@ class GizmoDrag(QObject):
     def on(self) -> bool:
         """Whether the gizmo is there."""
         return self._control.is_watched_by(GIZMO)
+
+    @property
+    def tool_axes(self) -> bool:
+        """Whether arrows and rings lie along the tool's own axes."""
+        return self._tool_axes
+
+    def set_tool_axes(self, on: bool) -> None:
+        """Let arrows and rings lie along the tool's own axes, or along the base's; not while one is held."""
+        if on == self._tool_axes or self._grip is not None:
+            return
+        self._tool_axes = on
+        whose, other = ("tool's own", "base's") if on else ("base's", "tool's own")
+        self._control.session.say(f"The arrows lie along the {whose} axes. Press T for the {other}.")
+        self.axes_switched.emit(on)
+        self._show()
 
     def switch(self, on: bool) -> None:
         """Show the gizmo, or take it away."""
@@ -185,11 +209,17 @@ class GizmoDrag(QObject):
     # --- the keyboard ----------------------------------------------------------------------------------------------
 
     def key(self, key: Qt.Key, modifiers: Qt.KeyboardModifier, repeated: bool) -> bool:
-        """Arrow keys nudge the target along the base's axes, as they lie on the screen; Page up and down lift it."""
+        """Arrow keys nudge the target along the base's axes, as they lie on the screen; Page up and down lift it.
+
+        T turns the arrows to the tool's own axes and back.
+        """
         if not self.on:
             return False
         if key == Qt.Key.Key_Escape:
             return self.give_up()
+        if key == Qt.Key.Key_T and not modifiers:
+            self.set_tool_axes(not self._tool_axes)
+            return True
         step = self._step(key)
         if step is None:
             return False
@@ -240,7 +270,11 @@ class GizmoDrag(QObject):
     def _gizmo(self) -> Gizmo:
         session = self._control.session
         axes = joint_axes(session.robot, link_transforms(session.robot, session.q))
-        return gizmo_at(self._control.T, handles_of(self._freedom(), axes), self._view.camera, self._view.height())
+        T = self._control.T
+        # What is held stays along the axes of when it was taken, even where the arm must turn the tool on its way.
+        held = T if self._grip is None else self._grip.T
+        handles = handles_of(self._freedom(), axes, held[:3, :3] if self._tool_axes else None)
+        return gizmo_at(T, handles, self._view.camera, self._view.height())
 
     def _under(self, at: QPointF) -> Handle | None:
         size = self._view.width(), self._view.height()

@@ -91,6 +91,7 @@ class SceneView(QWidget):
         self._scene: Scene | None = None
         self._camera = Camera(np.zeros(3), 3.0)
         self._framed_bounds: np.ndarray | None = None
+        self._outliers: np.ndarray = np.empty((0, 3))
         self._follows_size = True  # framed as a whole, and to be kept so when the widget changes its size
         self._pressed: QPointF | None = None
         self._choosing_box = False
@@ -149,6 +150,10 @@ class SceneView(QWidget):
         if self._needs_framing(scene.bounds):
             self._frame_now()
 
+    def set_outliers(self, points: np.ndarray) -> None:
+        """Points (k, 3) to be framed as well when somebody asks for everything; the view does not move now."""
+        self._outliers = points
+
     def image(self) -> QImage:
         """The picture as it is painted now."""
         return self._renderer.image()
@@ -161,7 +166,7 @@ class SceneView(QWidget):
         self._show_from(camera)
 
     def fit(self) -> None:
-        """Frames all that the arm can reach, from the present direction."""
+        """Frames all that the arm can reach, and what it should reach, from the present direction."""
         self._go_framed(self._goal())
 
     def view(self, name: str) -> None:
@@ -191,7 +196,9 @@ class SceneView(QWidget):
         if self._scene is None:
             return camera
         self._framed_bounds = self._scene.bounds
-        return framed(camera, self._scene.bounds, max(self.width(), 1), max(self.height(), 1))
+        points = np.concatenate([self._scene.bounds, self._outliers])
+        bounds = np.array([points.min(axis=0), points.max(axis=0)])
+        return framed(camera, bounds, max(self.width(), 1), max(self.height(), 1))
 
     def _frame_now(self) -> None:
         self.set_camera(self._framed(self._goal()))

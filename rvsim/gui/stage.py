@@ -22,6 +22,7 @@ from rvsim.scene.primitives import Item
 
 _TRAIL_SAMPLES = 1500
 _GLIDE_MS = 280
+_TARGET_ROOM = 0.1  # [sizes] on each side: the target's axes
 _MARKED_POINTS = 25  # more dots than these hide the line
 _SCENE_SETTINGS = {"theme", "look", "show_frames", "show_labels", "show_floor", "show_trail", "length_unit"}
 
@@ -98,6 +99,7 @@ class Stage(QObject):
         layers = (item for items in self._layers.values() for item in items)
         extras = (*self._path, *self._trail_now(), *layers)
         scene = compose(self._session.robot, q, self.palette, options, extras)
+        self._view.set_outliers(self._target_corners())
         self._view.set_scene(replace(scene, bounds=self._with_path(scene.bounds)))
 
     def _with_path(self, bounds: FloatArray) -> FloatArray:
@@ -107,6 +109,13 @@ class Stage(QObject):
             return bounds
         points = tracking.path.points
         return np.array([np.minimum(bounds[0], points.min(axis=0)), np.maximum(bounds[1], points.max(axis=0))])
+
+    def _target_corners(self) -> FloatArray:
+        """(k, 3) the box about a target that the arm has missed: it may lie outside of all that the arm reaches."""
+        target, room = self._session.experiment.target, _TARGET_ROOM * self._session.robot.size
+        if target is None:
+            return np.empty((0, 3))
+        return np.stack([target[:3, 3] - room, target[:3, 3] + room])
 
     def _trail_now(self) -> tuple[Item, ...]:
         """What the tool has drawn up to the present moment."""

@@ -18,6 +18,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import shown_units
 from rvsim.gui.session import Session
 from rvsim.gui.target_solution import (
+    LEAP,
     Answer,
     NearestPose,
     Offer,
@@ -32,6 +33,7 @@ from rvsim.gui.target_solution import (
     offer_of,
     seen_from,
     solve,
+    towards,
 )
 from rvsim.gui.workers import LatestWorker
 from rvsim.kinematics import DEFAULT_ORDER, ORDER_CRITERIA, Branch, branch_labels, forward_kinematics
@@ -39,7 +41,6 @@ from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _FRAME_MS, _REST_MS = 16, 80
-_LEAP = 0.25  # [rad, m] an arm that was left behind goes no further back to the target at once
 _STRIDES = 40  # after which an arm that creeps is given up
 
 
@@ -198,10 +199,9 @@ class TargetControl(QObject):
 
     def _creep(self, answer: Answer, step: Step | None, wish: Wish, strides: int) -> None:
         """A hand is followed without a jump: not over to another branch either."""
-        crept = nearer(answer, strides)
+        own = step.branch if step is not None and not step.changed_branch else None
+        crept = nearer(answer, strides) if own is None else towards(answer, own, strides)
         landing = landed(answer, crept.q) if crept.settled else None
-        if landing is None and crept.settled and step is not None and not step.changed_branch:
-            landing = step
         if landing is not None:
             self._arrive(answer, landing, wish)
             return
@@ -387,4 +387,4 @@ class TargetControl(QObject):
 
 def _at_hand(step: Step | None, left_behind: bool) -> bool:
     """Whether the arm can go there at once, and nobody who looks will call it a jump."""
-    return step is not None and not step.changed_branch and not (left_behind and step.branch.distance > _LEAP)
+    return step is not None and not step.changed_branch and not (left_behind and step.branch.distance > LEAP)

@@ -52,6 +52,7 @@ TASK_TITLES = {
 _KEPT = {"position, wrist kept": (3, 4)}  # the joints that a task leaves as they are
 _PLACES = ("position", "position, wrist kept", "x,y")  # tasks that leave the whole orientation open
 _CREEPING_STEPS = 8  # of Newton's method, a tenth of a millisecond each
+LEAP = 0.25  # [rad, m] an arm that was left behind goes no further back to the target at once
 _LANDED = 0.02  # [rad, m] what creeping leaves of the way to a branch: it goes slowly where it is singular
 _HERE = 1e-9  # [rad, m] a branch so close is where the arm is
 
@@ -218,6 +219,14 @@ def nearer(answer: Answer, times: int = 1) -> Crept:
         if crept.settled:
             break
     return crept
+
+
+def towards(answer: Answer, branch: Branch, times: int = 1) -> Crept:
+    """The joints on the way back to the arm's own branch, by so many strides: where an arm is stretched out, only the
+    branch's joints tell to which side its elbow was."""
+    way = branch.q - answer.question.q
+    share = min(1.0, times * LEAP / max(float(np.abs(way).max()), 1e-300))
+    return Crept(branch.q if share == 1.0 else answer.question.q + share * way, share == 1.0)
 
 
 def landed(answer: Answer, q: FloatArray) -> Step | None:

@@ -288,6 +288,53 @@ def test_escape_brings_a_creeping_arm_back_as_if_nothing_had_been(qtbot, window_
     assert window.session.undo_stack.count() == count
 
 
+def test_t_lays_arrows_and_rings_along_the_tools_own_axes_and_back(qtbot, window_of) -> None:
+    window = window_of("ur5e")
+    before = tool(window)
+    qtbot.keyClick(window.scene_view, Qt.Key.Key_T)
+    assert window.gizmo.tool_axes
+    qtbot.waitUntil(lambda: not window.stage._stale.isActive())
+    drag(qtbot, window, "axis z", (15, -20))
+    step = tool(window)[:3, 3] - before[:3, 3]
+    assert np.linalg.norm(step) > 1e-3
+    np.testing.assert_allclose(np.cross(step, before[:3, 2]), 0.0, atol=1e-9)
+    placed = tool(window)
+    drag(qtbot, window, "ring x", (20, 10))
+    np.testing.assert_allclose(tool(window)[:3, 0], placed[:3, 0], atol=1e-9)
+    assert np.abs(tool(window)[:3, :3] - placed[:3, :3]).max() > 0.05
+    qtbot.keyClick(window.scene_view, Qt.Key.Key_T)
+    np.testing.assert_array_equal(
+        [handle.direction for handle in window.gizmo._gizmo().handles if handle.kind == "axis"], np.eye(3)
+    )
+
+
+def test_an_arm_that_keeps_in_a_plane_keeps_the_bases_axes(window_of) -> None:
+    window = window_of("planar")
+    window.gizmo.set_tool_axes(True)
+    arrows = [handle.direction for handle in window.gizmo._gizmo().handles if handle.kind == "axis"]
+    np.testing.assert_array_equal(arrows, np.eye(3)[:2])
+
+
+def test_fit_shows_a_target_however_far_it_was_typed(qtbot, window_of) -> None:
+    window = window_of("ur5e")
+    view, T = window.scene_view, tool(window)
+    camera = view.camera
+    T[:3, 3] = (6.0, -4.0, 3.0)
+    window.target.set_target(Wish(T, "Target", ""))
+    qtbot.waitUntil(lambda: not window.stage._stale.isActive())
+    assert view.camera is camera  # nothing moves under the hand
+    view.fit()
+    x, y, depth = view.camera.project(T[:3, 3], view.width(), view.height())
+    assert 0 < x < view.width()
+    assert 0 < y < view.height()
+    assert depth > 0
+    away = view.camera.distance
+    window.session.undo_stack.undo()
+    qtbot.waitUntil(lambda: not window.stage._stale.isActive())
+    view.fit()
+    assert view.camera.distance < 0.5 * away
+
+
 def test_sliders_and_other_arms_take_the_target_along(window_of) -> None:
     window = window_of("ur5e")
     window.joints.findChild(QWidget, "joint_value_1").setValue(40.0)
