@@ -17,23 +17,27 @@ from rvsim.kinematics.inverse.spherical_wrist import SphericalWrist
 from rvsim.kinematics.inverse.textbook import Scara
 from rvsim.kinematics.inverse.ur import ParallelAxes
 from rvsim.kinematics.workspace.grid import BoolArray
+from rvsim.kinematics.workspace.place import places_and_manipulability
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray
 
 _TURN = 2.0 * math.pi
+_SINGULAR = 1e-5  # of the largest manipulability
 
 
 def branch_counts(robot: Robot, q: FloatArray, *, ignore_limits: bool = False) -> FloatArray:
     """(m,) how many branches, within the limits, bring the tool where q (m, n) does; each pose is one itself.
 
-    The task is the arm's own. Doubles at singular poses count as two.
+    The task is the arm's own. At singular poses branches fall together: there only the pose itself is counted.
 
     Raises:
         NoClosedFormError: the arm has no closed form.
     """
     branches = inverse_kinematics_batch(robot, forward_kinematics(robot, q))
     exist = ~np.isnan(branches[..., 0]) if ignore_limits else within_limits(robot, branches)
-    return np.asarray(np.maximum(exist.sum(axis=1), 1.0))
+    measure = places_and_manipulability(robot, q)[1]
+    singular = measure <= _SINGULAR * measure.max(initial=0.0)
+    return np.where(singular, 1.0, np.maximum(exist.sum(axis=1), 1.0))
 
 
 def held_branches(robot: Robot, places: FloatArray, R: FloatArray) -> FloatArray:

@@ -12,6 +12,7 @@ from rvsim.spatial.arrays import FloatArray
 
 _TURN = 2.0 * math.pi
 _AZIMUTHS = 720
+_MOST_AT_ONCE = 128  # samples that are turned all around of each block: a flat arm has thousands, and no need of them
 
 
 class Rings:
@@ -30,7 +31,8 @@ class Rings:
         if self._whole:
             np.maximum.at(self._best[:, 0], ring, values)
             return
-        turned = self._azimuths - phi[:, None]
+        ring, values = ring[:_MOST_AT_ONCE], values[:_MOST_AT_ONCE]
+        turned = self._azimuths - phi[:_MOST_AT_ONCE, None]
         rows, columns = np.nonzero(self._table.turns_to(turned, self._limits))
         np.maximum.at(self._best, (ring[rows], columns), values[rows])
 

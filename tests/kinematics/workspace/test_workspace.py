@@ -289,6 +289,12 @@ def test_a_pose_has_as_many_branches_as_its_inverse_finds(name: str) -> None:
         assert all_ == len(branches)
 
 
+def test_a_straight_elbow_is_not_two_branches() -> None:
+    robot = load_robot("rv-m1")  # whose elbow bends one way alone
+    q = np.radians([[10.0, 20.0, 0.0, 30.0, 40.0], [10.0, 20.0, -50.0, 30.0, 40.0]])
+    assert branch_counts(robot, q).tolist() == [1, 1]
+
+
 @pytest.mark.parametrize("name", ["rv-m1", "ur5e", "articulated", "cartesian"])
 def test_the_free_tool_has_branches_wherever_it_comes(name: str) -> None:
     result = surveyed(name, branches=True)
