@@ -17,6 +17,7 @@ from rvsim.gui.panel_docks import PanelDocks, lies_behind
 from rvsim.gui.panels.dh_table import DHTablePanel
 from rvsim.gui.panels.how import HowPanel
 from rvsim.gui.panels.inspect import INSPECT
+from rvsim.gui.panels.inspect_workspace import WorkspacePage
 from rvsim.gui.panels.inverse import InversePanel
 from rvsim.gui.panels.joints import JointsPanel
 from rvsim.gui.panels.laboratory import LaboratoryPanel
@@ -121,18 +122,18 @@ class MainWindow(QMainWindow):
             Page("points", "Points", "The characteristic points of the stick figure", PointsPanel(*arguments)),
             Page("dh", "DH table", "The Denavit–Hartenberg table, to be changed live", DHTablePanel(*arguments)),
         )
-        pages = self._inspect_pages()
-        inspect = [("inspect", "Inspect", PageStack("inspect_pages", pages))] if pages else []
         return [
             ("path", "Path", PathPanel(*arguments, self.tracker)),
             ("inverse", "Inverse", PageStack("inverse_pages", inverse)),
-            *inspect,
+            ("inspect", "Inspect", PageStack("inspect_pages", self._inspect_pages())),
             ("model", "Model", PageStack("model_pages", model)),
         ]
 
     def _inspect_pages(self) -> list[Page]:
         arguments = (self.session, self.preferences, self.stage)
-        return [Page(kind.name.removeprefix("inspect_"), kind.title, tip, kind(*arguments)) for kind, tip in INSPECT]
+        pages = [Page(kind.name.removeprefix("inspect_"), kind.title, tip, kind(*arguments)) for kind, tip in INSPECT]
+        self._inspectors = [page.widget for page in pages]
+        return pages
 
     def focusNextPrevChild(self, forward: bool) -> bool:
         """Tab passes over the panels that lie behind others: Qt calls them visible, but nobody sees them."""
@@ -299,6 +300,9 @@ class MainWindow(QMainWindow):
         self.tracker.close()
         self.target.close()
         self.laboratory.stop()
+        for page in self._inspectors:
+            if isinstance(page, WorkspacePage):
+                page.close_worker()
         geometry, layout = self.window_layout()
         self.preferences.keep_window_state("geometry", geometry)
         self.preferences.keep_window_state("layout", layout)

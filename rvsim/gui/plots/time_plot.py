@@ -101,7 +101,8 @@ class TimePlot(QWidget):
             axis.enableAutoSIPrefix(False)
         self.plot.showGrid(x=True, y=True, alpha=0.15)
         unit = f" [{self._drawing.unit}]" if self._drawing.unit else ""
-        self.plot.setTitle(f"{self._drawing.title}{unit} over t [s]", color=theme.text, size=f"{self.font().pointSizeF():.1f}pt")
+        size = f"{self.font().pointSizeF():.1f}pt"
+        self.plot.setTitle(f"{self._drawing.title}{unit} over t [s]", color=theme.text, size=size)
 
     def _is_near(self, band: Band) -> bool:
         """Whether its curve comes near to the limit: all limits of all joints at once would hide the curves."""
