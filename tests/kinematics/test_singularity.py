@@ -70,6 +70,25 @@ def test_the_determinants_of_the_six_axis_arms_have_three_factors():
     np.testing.assert_allclose(np.linalg.det(jacobian(robot, q)), expected, atol=1e-15)
 
 
+@pytest.mark.parametrize(
+    ("name", "rows", "columns", "factor"),
+    [
+        ("rrrp", (0, 1, 2), (0, 1, 3), 1.0),
+        ("planar", (0, 1), (0, 1), 0.3 * 0.25),
+        ("articulated", (0, 1, 2), (0, 1, 2), 0.3 * 0.28),
+        ("spherical", (0, 1, 2), (0, 1, 2), 1.0),
+        ("scara", (0, 1, 2, 5), (0, 1, 2, 3), 0.25 * 0.2),
+        ("cylindrical", (0, 1, 2), (0, 1, 2), 1.0),
+    ],
+)
+def test_where_an_arm_places_a_point_its_families_are_the_factors(name, rows, columns, factor):
+    robot = load_robot(name)
+    q = random_poses(robot, 100)
+    product = np.prod([each.values(q)[:, 0] for each in singular_families(robot)], axis=0)
+    task = jacobian(robot, q)[:, rows][:, :, columns]
+    np.testing.assert_allclose(np.abs(np.linalg.det(task)), np.abs(factor * product), atol=1e-12)
+
+
 @pytest.mark.parametrize("name", robot_names())
 def test_each_family_within_reach_is_entered_and_does_what_it_says(name):
     robot = load_robot(name)

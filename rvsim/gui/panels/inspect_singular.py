@@ -55,6 +55,7 @@ _THRESHOLD_TIP = (
 _LEFT, _RIGHT = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight
 _PARTS = {"linear": "moving (v)", "angular": "turning (ω)"}
 _NO_FAMILY = "This arm has no singularity of its task: J keeps its rank everywhere."
+_PLACE_ONLY = "Of its pose this arm has none: J keeps its rank everywhere. Its place alone can be singular:"
 _UNKNOWN = "No family is known for the shape of this arm; the numbers above hold all the same."
 
 
@@ -201,7 +202,7 @@ class SingularPage(InspectPage):
         own, other = (TASK_TITLES[rows], "Place") if rows == 6 else (TASK_TITLES[rows], "All of J")
         for head, text in zip(self.heads, (own, other), strict=True):
             head.setText(text)
-        self.families.show_families(singular_families(robot), _NO_FAMILY if families_known(robot) else _UNKNOWN)
+        self.families.show_families(singular_families(robot), _families_note(robot))
         if self.block is not None:
             self._place.removeWidget(self.block)
             self.block.hide()
@@ -266,6 +267,16 @@ def _judged(found: Singularity) -> Measures:
 
 def _other(found: Singularity) -> Measures:
     return found.position if found.task is found.whole else found.whole
+
+
+def _families_note(robot: Robot) -> str:
+    """What the list of families does not say itself."""
+    families = singular_families(robot)
+    if any(family.part == "pose" for family in families):
+        return ""
+    if families:
+        return _PLACE_ONLY
+    return _NO_FAMILY if families_known(robot) else _UNKNOWN
 
 
 def _block_for(robot: Robot, typesetter: Typesetter) -> ArmBlock | None:

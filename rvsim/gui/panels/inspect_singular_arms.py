@@ -63,13 +63,15 @@ class SourceBlock(ArmBlock):
             "the other way round; all other entries are right. Below, its three minors, (28), worked out.",
         )
         self._robot: Robot | None = None
+        self._q: FloatArray = np.zeros(5)
         self.grid = NumberGrid("Position Jacobian of source 000")
         self.grid.setObjectName("singular_source_jacobian")
         self.minors = _Values(MINOR_FORMULAS, "singular_minor", typesetter)
         self.note = wrapped_label("muted")
         self.note.setText(
             "All vanish where sin θ₃ = 0 and sin θ₄ = 0, its (29) and (30): right. They vanish at r = 0 too, the tip "
-            "on the base axis: it forgets that. The poses that its procedure finds:"
+            "on the base axis: it forgets that. The poses that its procedure "
+            "finds, with θ₄ as the joint has it, 90° less than there:"
         )
         self.list = QVBoxLayout()
         self.list.setSpacing(10)
@@ -81,7 +83,7 @@ class SourceBlock(ArmBlock):
 
     def show_pose(self, robot: Robot, q: FloatArray) -> None:
         """Ĵ, its minors, and the list of barriers."""
-        J = position_jacobian(robot, q)
+        self._q, J = q, position_jacobian(robot, q)
         self.grid.show_numbers(
             [[format_number(10.0 * float(v), 3) for v in row] for row in J], ("θ₁", "θ₂", "θ₃", "θ₄")
         )
@@ -100,14 +102,17 @@ class SourceBlock(ArmBlock):
             row.asked.connect(self._go)
             self.list.addWidget(row)
 
-    def _go(self, barrier: Barrier, q: FloatArray) -> None:
-        self.go.emit(q, f"Go to the barrier {barrier.title}")
+    def _go(self, barrier: Barrier) -> None:
+        """Joints 1 and 5 stay as they are now."""
+        q = np.array(barrier.q)
+        q[[0, 4]] = self._q[[0, 4]]
+        self.go.emit(q, f"Go to {barrier.title}")
 
 
 class BarrierRow(QWidget):
     """One pose of the source's list, its verdict and the way there."""
 
-    asked = Signal(object, object)
+    asked = Signal(object)
 
     def __init__(self, number: int, barrier: Barrier) -> None:
         super().__init__()
@@ -120,7 +125,7 @@ class BarrierRow(QWidget):
             f"singular_barrier_{number}",
             f"{printed}{barrier.title}",
             "Go to this pose",
-            lambda: self.asked.emit(barrier, barrier.q),
+            lambda: self.asked.emit(barrier),
         )
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)

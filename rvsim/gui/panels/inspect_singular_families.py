@@ -99,16 +99,16 @@ class FamilyList(QWidget):
         self._typesetter, self._preferences = typesetter, preferences
         self._families: tuple[SingularFamily, ...] | None = None
         self.rows: list[FamilyRow] = []
-        self.empty = wrapped_label("muted")
+        self.note = wrapped_label("muted")
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
         self._column.setSpacing(12)
-        self._column.addWidget(self.empty)
+        self._column.addWidget(self.note)
 
-    def show_families(self, families: tuple[SingularFamily, ...], empty: str) -> None:
-        """Offer these; `empty` is what is said where there are none."""
-        self.empty.setText(empty)
-        self.empty.setVisible(not families)
+    def show_families(self, families: tuple[SingularFamily, ...], note: str) -> None:
+        """Offer these; `note` is what is said above them."""
+        self.note.setText(note)
+        self.note.setVisible(bool(note))
         if families is self._families:
             return
         self._families = families

@@ -48,14 +48,19 @@ MEASURES: tuple[tuple[str, str], ...] = (
 def measure_texts(measures: Measures) -> tuple[str, ...]:
     """The five numbers of `MEASURES`."""
     ratio = measures.sigma_min / float(measures.singular_values[0])
-    condition = "∞" if math.isinf(measures.condition) else format_number(measures.condition, 1)
     return (
         small_number(measures.sigma_min),
         small_number(ratio),
-        condition,
+        _condition(measures.condition),
         small_number(measures.manipulability),
         f"{measures.rank} of {measures.full_rank}",
     )
+
+
+def _condition(value: float) -> str:
+    if math.isinf(value):
+        return "∞"
+    return format_number(value, 1) if value < 1e5 else f"{value:.1e}"
 
 
 def small_number(value: float) -> str:
@@ -165,11 +170,11 @@ def ellipsoid_scale(robot: Robot, part: str, kind: str) -> Scale:
     factors = {
         ("linear", "velocity"): (0.4, f"{length}/s"),
         ("angular", "velocity"): (0.12 * size, "rad/s"),
-        ("linear", "force"): (0.08 * size**2, "N"),
+        ("linear", "force"): (0.06 * size**2, "N"),
         ("angular", "force"): (0.12 * size, "N m"),
     }
     factor, unit = factors[part, kind]
-    return Scale(_round(factor), _round(0.9 * size), unit)
+    return Scale(_round(factor), _round(0.5 * size), unit)
 
 
 def _round(value: float) -> float:

@@ -116,9 +116,11 @@ def test_a_family_beyond_the_limits_says_so_with_numbers(page_of):
 def test_an_arm_without_families_says_so(page_of):
     page = page_of("cartesian")
     assert page.families.rows == []
-    assert page.families.empty.text().startswith("This arm has no singularity")
+    assert page.families.note.text().startswith("This arm has no singularity")
+    page._session.use_robot(load_robot("rrrp"))
+    assert page.families.note.text().startswith("Of its pose this arm has none")
     page._session.use_robot(load_robot("ur5e").with_joint(3, alpha=0.7))
-    assert page.families.empty.text().startswith("No family is known")
+    assert page.families.note.text().startswith("No family is known")
 
 
 def test_the_ellipsoids_are_drawn_with_their_scale(page_of):
@@ -140,7 +142,9 @@ def test_source_000_is_held_against_the_arm(page_of):
     click(page, "singular_barrier_1")
     assert [text(page, f"singular_minor_{row}") for row in (1, 2, 3)] == ["0 dm³"] * 3
     assert text(page, "singular_state_stretched") == "✖ active"
+    page._session.move_to(np.append(0.7, page._session.q[1:]), "Plot")
     click(page, "singular_barrier_2")
+    assert page._session.q[0] == 0.7
     assert text(page, "singular_light") == "●"
 
 
