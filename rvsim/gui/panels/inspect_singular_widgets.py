@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_singular_words import CLEAR, Light, small_number
-from rvsim.gui.theme import number_font, set_role
+from rvsim.gui.theme import THEMES, number_font, set_role
 from rvsim.robot.arrays import FloatArray
 
 _DECADES = 4.0  # the bars reach from σ max down to a ten thousandth of it
@@ -116,8 +116,6 @@ class SigmaBars(QWidget):
 
 
 def _signal(level: str, dark: bool) -> str:
-    from rvsim.gui.theme import THEMES
-
     theme = THEMES["dark" if dark else "light"]
     return theme.error if level == "error" else theme.warning
 
