@@ -76,7 +76,10 @@ def _search(problem: Problem, solver: Solver, start: FloatArray, budget: Budget)
     low, high = start_ranges(problem.robot, problem.bounds).T
     while problem.options.allow_random_restarts and kind not in ENDING:
         another = _attempt(problem, solver, random.uniform(low, high), budget)
-        kind, restarts = another.kind, restarts + 1
+        restarts += 1
+        # A try that ends where it began has used up nothing: of such there would be no end.
+        budget.iterations += len(another.iterates) == 1
+        kind = another.kind if another.kind in ENDING else budget.spent() or another.kind
         if kind == "solved" or another.end.cost < best.end.cost:
             best = another
     return _result(best, kind, restarts, budget)

@@ -237,3 +237,14 @@ def test_what_makes_no_sense_is_refused_with_its_name() -> None:
         SolverOptions(max_iterations=0)
     with pytest.raises(SettingError, match="weights"):
         SolverOptions(weights=(1.0, 1.0, 1.0, 1.0, 1.0, -1.0))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_search_in_which_nothing_weighs_comes_to_an_end(solver: str) -> None:
+    robot = load_robot("rv-m1")
+    target = forward_kinematics(robot, robot.home)
+    result = solve_numeric(
+        robot, target, robot.home - 0.1, solver, options=SolverOptions(weights=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    )
+    assert result.kind == "iterations"
+    assert not result.converged
