@@ -36,7 +36,7 @@ class WrenchDrag(QObject):
         super().__init__(parent)
         self._view, self._arrows = view, arrows
         self._behind: Grabber | None = None
-        self._on = self._held = self._is_lit = self._tracked = False
+        self._on = self._linked = self._held = self._is_lit = False
 
     @property
     def held(self) -> bool:
@@ -54,15 +54,14 @@ class WrenchDrag(QObject):
             return
         self._on = on
         if on:
-            self._behind, self._tracked = self._view.grabber, self._view.hasMouseTracking()
-            self._view.grabber = self
             self._view.setMouseTracking(True)
+            if not self._linked:
+                self._behind, self._view.grabber, self._linked = self._view.grabber, self, True
             return
         self._let_go(given_up=False)
         self._light(False)
-        self._view.setMouseTracking(self._tracked)
         if self._view.grabber is self:  # else somebody stands before us, and we only pass on
-            self._view.grabber = self._behind
+            self._view.grabber, self._linked = self._behind, False
 
     # --- what the view tells ---------------------------------------------------------------------------------------
 

@@ -159,6 +159,8 @@ class DynamicsPage(InspectPage):
         if robot is not self._robot:
             self._take_robot(robot)
         self.message.hide()
+        for table in (self.table, self.centers, self.inertias):
+            _fit(table)
         if not robot.masses:
             self.draw(())
             return
@@ -193,8 +195,6 @@ class DynamicsPage(InspectPage):
             self.model.show_values(robot, np.zeros((robot.dof, len(PARTS))))
             self.torques_title.setText(torques_title(self.model.units()))
             self.matrix_note.setText(matrix_note(robot))
-        for table in (self.table, self.centers, self.inertias):
-            _fit(table)
 
     def _rates_now(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Those of the motion where it is what is shown, else those that have been typed."""

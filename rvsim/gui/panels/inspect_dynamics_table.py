@@ -20,8 +20,8 @@ _MORE = 1  # decimals: a small arm's parts are small
 _TIPS = (
     "The joint",
     "g(q): what holds the arm still",
-    "C(q, q̇) q̇: Coriolis and centrifugal",
-    "M(q) q̈: what accelerates it",
+    "Coriolis and centrifugal: what the joints do to each other by moving",
+    "M(q) times the accelerations: what speeds it up",
     "What the drive has to give, without friction",
 )
 

@@ -40,6 +40,8 @@ def no_mass_text(robot: Robot) -> str:
 def mass_note(robot: Robot) -> str:
     """What the tables hold, where it comes from, how it is changed."""
     parts = ["Centre of mass and moments in the link's DH frame."]
+    if robot.length_unit == "unit":
+        parts.append("One unit counts as one metre.")
     if any(link.assumed for link in robot.masses):
         parts.append("Italic: assumed.")
     sources = dict.fromkeys(link.source for link in robot.masses if link.source)
@@ -56,7 +58,7 @@ def torques_title(units: Sequence[str]) -> str:
 def matrix_note(robot: Robot) -> str:
     """Its units, and what it is for."""
     units = "kg m²" if robot.is_revolute.all() else "kg m² between turning joints, kg between sliding ones, else kg m"
-    return f"In {units}. Kinetic energy = ½ q̇ᵀ M q̇."
+    return f"In {units}. Kinetic energy: ½ vᵀ M v, v the joint velocities."
 
 
 def matrix_decimals(robot: Robot) -> int:

@@ -208,6 +208,7 @@ class ForcesPage(InspectPage):
         pushed = J.T @ wrench
         self._torques = pushed + weight
         self._show_boxes()
+        fit_table(self.table)
         self.model.show_rows(robot, torque_rows(robot, pushed, weight))
         self._show_largest(robot, q, weight)
         self.equations.show_equations(torque_equations(J, wrench, pushed))
@@ -223,7 +224,6 @@ class ForcesPage(InspectPage):
         self.weight.setVisible(bool(robot.masses))
         self.model.show_rows(robot, torque_rows(robot, np.zeros(robot.dof), np.zeros(robot.dof)))
         self.legend.setText(legend(self.model.rows))
-        fit_table(self.table)
 
     def _show_boxes(self) -> None:
         self.forces.show_values(self.pull.wrench[:3])
