@@ -9,6 +9,7 @@
     ├── PathFileError          a file of points that cannot be read, with its row and column
     ├── FileWriteError         a file that cannot be written, with its path and the reason
     ├── ExpressionError        a typed value that is no number
+    ├── FormulaError           a typed formula of a path that cannot be worked out, with its stage and coordinate
     ├── PoseError              a 4 × 4 matrix that is no pose of a tool
     ├── SettingError           a setting of a solver outside what it may be
     ├── NoClosedFormError      an arm whose inverse kinematics has no closed form here
@@ -107,6 +108,14 @@ class ExpressionError(RvsimError, ValueError):
     def __init__(self, text: str, reason: str) -> None:
         self.text, self.reason = text, reason
         super().__init__(f"“{text}” is no number: {reason}. Type a number or an expression like 90/4, 2*30, pi/4 rad.")
+
+
+class FormulaError(RvsimError, ValueError):
+    """A typed formula of a path that cannot be worked out."""
+
+    def __init__(self, stage: int, coordinate: str, text: str, reason: str) -> None:
+        self.stage, self.coordinate, self.text, self.reason = stage, coordinate, text, reason
+        super().__init__(f"Stage {stage}, {coordinate}: “{text}” does not work: {reason}.")
 
 
 class PoseError(RvsimError, ValueError):

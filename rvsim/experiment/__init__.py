@@ -10,13 +10,17 @@ from rvsim.experiment.experiment import (
     limit_violations,
     random_pose,
 )
+from rvsim.experiment.shapes import SHAPE_KINDS, Placement, Shape
 
 __all__ = [
+    "SHAPE_KINDS",
     "Experiment",
     "LimitViolation",
     "LineTask",
     "NamedPose",
     "PathOrientation",
+    "Placement",
+    "Shape",
     "TrajectoryTask",
     "limit_violations",
     "random_pose",

@@ -8,10 +8,12 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rvsim.experiment.shapes import Placement, Shape
+from rvsim.motion.trajectory import Law
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
-PathOrientation = Literal["down", "free", "keep", "source"]
+PathOrientation = Literal["down", "free", "keep", "source", "turn", "normal", "pitch"]
 
 
 class NamedPose(NamedTuple):
@@ -50,18 +52,34 @@ class LineTask:
 
 @dataclass(frozen=True, eq=False)
 class TrajectoryTask:
-    """The named path to track, for instance "letter-board", and the tool's orientation along it."""
+    """The path to track: a named one, for instance "letter-board", or a shape, and the tool's orientation along it.
+
+    Args:
+        name: of a path that has one, or a kind of `SHAPE_KINDS`.
+        height: [m], for the paths whose source gives no height.
+        shape: what is drawn, None for what fits the arm.
+        placement: where, None for where its source or the shape has it.
+        turn_from, turn_to: (3,) roll, pitch, yaw [rad] at the path's ends where the tool turns evenly along it; None
+            for the tool's present orientation.
+        pitch: of the tool axis above the horizontal [rad], where that is held.
+    """
 
     name: str = "letter-board"
     orientation: PathOrientation = "source"
-    height: float = 0.3  # [m], for the paths whose source gives no height
+    height: float = 0.3
+    shape: Shape | None = None
+    placement: Placement | None = None
+    turn_from: tuple[float, float, float] | None = None
+    turn_to: tuple[float, float, float] | None = None
+    pitch: float = -np.pi / 2
 
 
 @dataclass(frozen=True, eq=False)
 class Experiment:
     """One arm, its present pose q (n,) [rad, m], and what is to be done with it.
 
-    `target` (4, 4) is the tool pose that was wanted where the arm could not follow; None is the tool's own.
+    `target` (4, 4) is the tool pose that was wanted where the arm could not follow; None is the tool's own. `law` and
+    `path_seconds` say how paths are travelled: None is a calm pace, 0 as quick as the joints may.
     """
 
     robot: Robot
@@ -71,6 +89,8 @@ class Experiment:
     ignore_limits: bool = False
     poses: tuple[NamedPose, ...] = ()
     target: FloatArray | None = None
+    law: Law = "quintic"
+    path_seconds: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "q", frozen_array("q", self.q, (self.robot.dof,)))

@@ -14,8 +14,9 @@ from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.session import Session
 from rvsim.gui.workers import LatestWorker
 from rvsim.lab.lines import line_presets
-from rvsim.lab.named_paths import line_of, named_path
+from rvsim.lab.named_paths import line_of
 from rvsim.lab.sentences import Units, tracking_sentence
+from rvsim.lab.shape_paths import task_path
 from rvsim.motion import Path, Tracking, Trajectory, track, trajectory_of
 from rvsim.robot import Robot
 
@@ -64,10 +65,25 @@ def _same_task(kind: str, one: Experiment, other: Experiment, *, limits_matter: 
 
 def _solved(kind: str, experiment: Experiment, path: Path, text: str) -> _Done:
     tracking = track(experiment.robot, path, near=experiment.q, ignore_limits=experiment.ignore_limits)
-    return _Done(kind, experiment, tracking, trajectory_of(tracking, experiment.q), text)
+    return _Done(kind, experiment, tracking, _timed(tracking, experiment), text)
 
 
-def _takes_long(robot: Robot, path: Path) -> bool:
+def _timed(tracking: Tracking, experiment: Experiment) -> Trajectory | None:
+    """The motion from where the arm is, by the law and in the time that are asked for."""
+    return trajectory_of(tracking, experiment.q, path_seconds=experiment.path_seconds, law=experiment.law)
+
+
+def _timed_again(done: _Done, experiment: Experiment) -> _Done:
+    """The same path as another law and time have it, from where the arm stands now."""
+    told = replace(done.experiment, law=experiment.law, path_seconds=experiment.path_seconds)
+    return done._replace(experiment=told, trajectory=_timed(done.tracking, experiment))
+
+
+def _same_pace(one: Experiment, other: Experiment) -> bool:
+    return one.law == other.law and one.path_seconds == other.path_seconds
+
+
+def takes_long(robot: Robot, path: Path) -> bool:
     """Whether tracking could hold up the window for a tenth of a second. By size, so that it is always the same."""
     free = path.rotations is None and robot.dof > 3
     return path.samples > (_AT_ONCE_FREE if free else _AT_ONCE)
@@ -146,15 +162,27 @@ class PathTracker(QObject):
             self.cancel()
         shown = self._session.tracking
         if shown is not None and self._done[-1].still_holds(after):
+            if not _same_pace(self._done[-1].experiment, after):
+                self._time_again(after)
             return
         known = next((done for done in reversed(self._done) if done.still_holds(after)), None)
         if known is not None:
             self._done.remove(known)
-            self._show(known)
+            self._show(known if _same_pace(known.experiment, after) else _timed_again(known, after))
         elif shown is not None:
             self._motion.load(None, "")
             self._session.set_tracking(None)
             self._session.say("Changed: track it again to see what the arm can do now.")
+
+    @property
+    def trajectory(self) -> Trajectory | None:
+        """The motion along what is tracked, None when nothing is."""
+        return self._done[-1].trajectory if self._session.tracking is not None else None
+
+    def _time_again(self, experiment: Experiment) -> None:
+        """Another law or time for what is shown: nothing has to be solved for that."""
+        self._done[-1] = _timed_again(self._done[-1], experiment)
+        self._motion.load(self._done[-1].trajectory, self._done[-1].text)
 
     # --- inside ----------------------------------------------------------------------------------------------------
 
@@ -164,14 +192,14 @@ class PathTracker(QObject):
         try:
             path = self._path(experiment)
             job = partial(_solved, kind, experiment, path, text)
-            if _takes_long(experiment.robot, path):
+            if takes_long(experiment.robot, path):
                 self._pending = (kind, experiment)
                 self._worker.ask(job)
                 self.busy_changed.emit(True)
                 self._session.say(f"Working out {path.samples} points …")
                 return
             done = job()
-        except RvsimError as problem:
+        except (RvsimError, OSError) as problem:
             self._session.say(str(problem), "error")
             return
         self._finish(done)
@@ -179,8 +207,8 @@ class PathTracker(QObject):
     def _on_solved(self, done: _Done) -> None:
         self._pending = None
         self.busy_changed.emit(False)
-        # The arm may have been moved meanwhile: the way to the path begins where it is now.
-        self._finish(done._replace(trajectory=trajectory_of(done.tracking, self._session.q)))
+        # The arm may have been moved meanwhile: the way to the path begins where it is now, at the present pace.
+        self._finish(_timed_again(done, self._session.experiment))
 
     def _finish(self, done: _Done) -> None:
         self._show(done)
@@ -199,7 +227,7 @@ class PathTracker(QObject):
         robot, task = experiment.robot, experiment.trajectory
         if self.kind == "line":
             return line_of(robot, experiment.line, experiment.q)
-        return named_path(task.name, robot, orientation=task.orientation, height=task.height, q=experiment.q)
+        return task_path(robot, task, experiment.q)
 
     def _with_task(self, **changes: Any) -> Experiment:
         experiment = self._session.experiment

@@ -27,6 +27,9 @@ class Path:
         rotations: (m, 3, 3) base → tool, or None where the orientation is free.
         title: what people call it.
         notes: where it comes from and what is worth knowing.
+        pen_up: (m,) whether the way from the point before to this one is made with the pen lifted; None where it
+            draws all the way.
+        known_corners: (c,) indices of the points where it turns sharply, from whoever made it; None to find them.
 
     Raises:
         ShapeError: points and rotations do not fit together.
@@ -37,6 +40,8 @@ class Path:
     rotations: FloatArray | None = None
     title: str = ""
     notes: str = ""
+    pen_up: NDArray[np.bool_] | None = None
+    known_corners: NDArray[np.intp] | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", frozen_array("path points", self.points, (-1, 3)))
@@ -45,6 +50,8 @@ class Path:
         if self.rotations is not None:
             rotations = frozen_array("path rotations", self.rotations, (self.samples, 3, 3))
             object.__setattr__(self, "rotations", rotations)
+        if self.pen_up is not None and np.shape(self.pen_up) != (self.samples,):
+            raise ShapeError("path pen_up", f"({self.samples},)", np.shape(self.pen_up))
 
     @property
     def samples(self) -> int:
@@ -60,8 +67,11 @@ class Path:
     def corners(self) -> NDArray[np.intp]:
         """Indices of the points where the path turns sharply: by more than 25°, and much more than it usually does.
 
-        A tool that does not rest there would have to jump in speed, or leave the path.
+        A tool that does not rest there would have to jump in speed, or leave the path. Those that are known from the
+        making are all there are.
         """
+        if self.known_corners is not None:
+            return np.asarray(self.known_corners, dtype=np.intp)
         steps = np.diff(self.points, axis=0)
         lengths = np.linalg.norm(steps, axis=1)
         known = np.flatnonzero(lengths > 1e-9 * max(self.length, 1e-9))
@@ -81,7 +91,8 @@ class Path:
     def part(self, which: slice | NDArray[np.intp]) -> Path:
         """Some of its points, with the same name."""
         rotations = None if self.rotations is None else self.rotations[which]
-        return replace(self, points=self.points[which], rotations=rotations)
+        pen_up = None if self.pen_up is None else self.pen_up[which]
+        return replace(self, points=self.points[which], rotations=rotations, pen_up=pen_up, known_corners=None)
 
     def with_rotation(self, rotation: ArrayLike | None) -> Path:
         """The same places with one orientation (3, 3) for all, one each (m, 3, 3), or None for a free one."""
@@ -90,6 +101,20 @@ class Path:
     def moved(self, shift: ArrayLike) -> Path:
         """Shifted by (3,) [m]."""
         return replace(self, points=self.points + np.asarray(shift, dtype=np.float64))
+
+    @property
+    def middle(self) -> FloatArray:
+        """(3,) the middle of the box that holds it [m]."""
+        return np.asarray(0.5 * (self.points.min(axis=0) + self.points.max(axis=0)))
+
+    def placed(self, center: ArrayLike, turn: ArrayLike | None = None, scale: float = 1.0) -> Path:
+        """Scaled and turned about its middle by a rotation (3, 3), and moved so that this lies at `center` (3,) [m].
+
+        The tool is turned along with it.
+        """
+        R = np.eye(3) if turn is None else np.asarray(turn, dtype=np.float64)
+        points = np.asarray(center, dtype=np.float64) + scale * (self.points - self.middle) @ R.T
+        return replace(self, points=points, rotations=None if self.rotations is None else R @ self.rotations)
 
 
 def through_points(points: ArrayLike, rotation: ArrayLike | None = None, *, name: str = "points") -> Path:

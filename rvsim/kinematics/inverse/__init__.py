@@ -1,6 +1,6 @@
 """From the tool back to the joints: closed forms, all branches, and why not."""
 
-from rvsim.kinematics.inverse.batch import inverse_kinematics_batch
+from rvsim.kinematics.inverse.batch import inverse_kinematics_batch, nearest_feasible_poses
 from rvsim.kinematics.inverse.copies import LimitCopies, limit_copies, limit_margins
 from rvsim.kinematics.inverse.families import branch_labels
 from rvsim.kinematics.inverse.free_pitch import free_pitch_batch
@@ -23,4 +23,5 @@ __all__ = [
     "inverse_tasks",
     "limit_copies",
     "limit_margins",
+    "nearest_feasible_poses",
 ]

@@ -43,6 +43,15 @@ def inverse_kinematics_batch(robot: Robot, T: ArrayLike, *, project: bool = Fals
     return q
 
 
+def nearest_feasible_poses(robot: Robot, T: ArrayLike) -> FloatArray:
+    """T (m, 4, 4) of a 5R arm with each orientation turned as little as the arm needs, each place kept.
+
+    Raises:
+        NoClosedFormError: it is no such arm, or its tool tip lies beside the roll axis.
+    """
+    return nearest_orientation(five_axis(closed_form(robot), "an orientation is projected").chain, floats("T", T, 4, 4))
+
+
 def solve_block(form: ClosedForm, poses: FloatArray, free: FloatArray) -> FloatArray:
     """Joint variables (branches, n, m) of poses (m, 4, 4); `free` (n,) are the values of joints that are free."""
     S = frame_entries(form.chain, poses, flange=not form.place_only)

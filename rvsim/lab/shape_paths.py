@@ -1,0 +1,262 @@
+"""What a student draws, as a path for an arm: curve, place by the arm's first line, orientation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rvsim.errors import ExpressionError, FormulaError, ShapeError
+from rvsim.experiment import SHAPE_KINDS, Placement, Shape, TrajectoryTask
+from rvsim.experiment.shapes import (
+    ArcShape,
+    ArcThroughShape,
+    CircleShape,
+    EllipseShape,
+    FormulaShape,
+    FormulaStage,
+    PointsShape,
+    PolygonShape,
+    StarShape,
+    TextShape,
+)
+from rvsim.expressions import evaluate_formula
+from rvsim.lab.lines import line_presets
+from rvsim.lab.named_paths import named_path
+from rvsim.lab.orientations import Wanted, oriented
+from rvsim.motion import Path, shapes
+from rvsim.motion.lettering import text_strokes
+from rvsim.motion.shapes import Drawing
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.robot.edits import original_name
+from rvsim.spatial import rotation_from_rpy, transform
+
+MOST_SAMPLES = 20_001
+_COORDINATES = ("x", "y", "z")
+
+
+class ShapeKind(NamedTuple):
+    """A kind of shape: its title, whether its numbers are places in base axes, and how it is made and drawn.
+
+    Args:
+        default: what fits an arm, of the middle (3,) and half the length [m] of its first line.
+        draw: its points, about the origin of a plane (m, 2 or 3) unless they are places already.
+    """
+
+    title: str
+    placed: bool
+    default: Callable[[Robot, FloatArray, float], Shape]
+    draw: Callable[[Any], Drawing]
+
+
+def _text(shape: TextShape) -> Drawing:
+    lines = text_strokes(shape.text, shape.height)
+    if not lines:
+        raise ShapeError("text", "(at least 1 letter,)", (0,))
+    return shapes.strokes(lines, shape.spacing, shape.lift)
+
+
+def _through(shape: ArcThroughShape) -> Drawing:
+    start, via, end = shape.points
+    return Drawing(shapes.arc_through(start, via, end, shape.samples), np.empty(0, dtype=np.intp))
+
+
+def _points(shape: PointsShape) -> Drawing:
+    known = shape.points
+    if shape.join == "none" or len(known) < 2:
+        return Drawing(known, np.arange(1, len(known) - 1))
+    if shape.join == "lines":
+        return shapes.polyline(known, shape.samples)
+    return shapes.spline_curve(known, shape.samples, shape.join)
+
+
+def formula_times(shape: FormulaShape) -> list[FloatArray]:
+    """The moments [s] of each stage: the first with both its ends, each other one after where the last one ended."""
+    begins = [shape.begin, *(stage.end for stage in shape.stages)]
+    return [
+        np.linspace(begin, stage.end, stage.samples + (number > 0))[int(number > 0) :]
+        for number, (begin, stage) in enumerate(zip(begins[:-1], shape.stages, strict=True))
+    ]
+
+
+def formula_points(shape: FormulaShape) -> FloatArray:
+    """(m, 3) all stages one after the other [m].
+
+    Raises:
+        FormulaError: with the stage (from 1), the coordinate, and what is wrong.
+    """
+    if sum(stage.samples for stage in shape.stages) > MOST_SAMPLES:
+        raise FormulaError(len(shape.stages), "points", "", f"all stages together have more than {MOST_SAMPLES} points")
+    pieces = [
+        np.column_stack([_coordinate(number, name, getattr(stage, name), t) for name in _COORDINATES])
+        for number, (stage, t) in enumerate(zip(shape.stages, formula_times(shape), strict=True), 1)
+    ]
+    return np.concatenate(pieces) * shape.unit
+
+
+def _coordinate(stage: int, name: str, text: str, t: FloatArray) -> FloatArray:
+    try:
+        return evaluate_formula(text, t)
+    except ExpressionError as problem:
+        raise FormulaError(stage, name, text, problem.reason) from None
+
+
+def _formulas(shape: FormulaShape) -> Drawing:
+    points = formula_points(shape)
+    return Drawing(points, np.asarray(Path("formulas", points).corners))
+
+
+# Source 003's two stages as it prints them, its lengths l1 = l2 = 4 and l5 = 1 put in.
+SPIRAL_STAGES = (
+    FormulaStage(10.0, 1001, "4 + 0*t", "4 + 0*t - 1", "0.1*t + 4"),
+    FormulaStage(20.0, 1000, "4 + 1*sin(pi/2*t)", "4 + 1*cos(pi/2*t)", "0.1*t + 4"),
+)
+
+
+def formula_unit(robot: Robot) -> float:
+    """How long one unit of typed formulas is [m]: a millimetre, or the arm's own unit."""
+    return 1e-3 if robot.length_unit == "millimetre" else 1.0
+
+
+def _default_formulas(robot: Robot, middle: FloatArray, half: float) -> FormulaShape:
+    """Source 003's spiral for its arm; for others a straight way up and a turn of a spiral in their own reach."""
+    unit = formula_unit(robot)
+    if original_name(robot) == "rrrp":
+        return FormulaShape(SPIRAL_STAGES, unit=unit)
+    (x, y, z), r = np.round(middle / unit, 3).tolist(), float(f"{0.25 * half / unit:.2g}")
+    rise = 0.0 if robot.dof < 3 or original_name(robot) == "planar" else 0.25 * r
+    low = f"{z:g} + {rise:g}*t/10" if rise else f"{z:g}"
+    stages = (
+        FormulaStage(5.0, 51, f"{x:g}", f"{y + r:g} - {r:g}*(1 - t/5)", low),
+        FormulaStage(15.0, 100, f"{x:g} + {r:g}*sin(pi/5*t)*(-1)", f"{y:g} - {r:g}*cos(pi/5*t)", low),
+    )
+    return FormulaShape(stages, unit=unit)
+
+
+def _default_points(_robot: Robot, middle: FloatArray, half: float) -> PointsShape:
+    rows = ((-1, -1, 0), (1, -1, 0), (1, 0, 0), (-1, 1, 0), (1, 1, 0))
+    return PointsShape(np.round(middle + 0.3 * half * np.array(rows, dtype=np.float64), 6))
+
+
+def _default_arc_through(_robot: Robot, middle: FloatArray, half: float) -> ArcThroughShape:
+    return ArcThroughShape(np.round(middle + 0.5 * half * np.array([(0, -1, 0), (-0.6, 0, 0), (0, 1, 0)]), 6))
+
+
+def _default_text(robot: Robot, _middle: FloatArray, half: float) -> TextShape:
+    lift = 0.0 if original_name(robot) == "planar" else half / 12  # that arm cannot leave its plane
+    return TextShape(half / 3, lift=lift, spacing=half / 40)
+
+
+SHAPES: dict[str, ShapeKind] = {
+    "circle": ShapeKind(
+        "Circle", False, lambda _r, _m, half: CircleShape(half / 3), lambda s: shapes.circle(s.radius, s.samples)
+    ),
+    "arc": ShapeKind(
+        "Arc",
+        False,
+        lambda _r, _m, half: ArcShape(half / 3),
+        lambda s: shapes.arc(s.radius, s.begin, s.sweep, s.samples),
+    ),
+    "arc-through": ShapeKind("Arc through three points", True, _default_arc_through, _through),
+    "ellipse-shape": ShapeKind(
+        "Ellipse",
+        False,
+        lambda _r, _m, half: EllipseShape(half / 3, half / 5),
+        lambda s: shapes.ellipse(s.a, s.b, s.samples),
+    ),
+    "polygon": ShapeKind(
+        "Polygon",
+        False,
+        lambda _r, _m, half: PolygonShape(half / 3),
+        lambda s: shapes.regular_polygon(s.corners, s.radius, s.samples),
+    ),
+    "star": ShapeKind(
+        "Star",
+        False,
+        lambda _r, _m, half: StarShape(half / 3),
+        lambda s: shapes.five_pointed_star(s.radius, s.samples),
+    ),
+    "text": ShapeKind("Text", False, _default_text, _text),
+    "formulas": ShapeKind("Formulas", True, _default_formulas, _formulas),
+    "points": ShapeKind("Points", True, _default_points, _points),
+}
+
+
+def is_shape(task: TrajectoryTask) -> bool:
+    """Whether the task's path is a shape, not one of a source or a file."""
+    return task.name in SHAPE_KINDS
+
+
+def shape_of(robot: Robot, task: TrajectoryTask) -> Shape:
+    """What the task draws: its own shape, or what fits the arm."""
+    return SHAPES[task.name].default(robot, *_first_line(robot)) if task.shape is None else task.shape
+
+
+def placement_of(robot: Robot, task: TrajectoryTask) -> Placement:
+    """Where the task's path lies: its own placement; else as its source has it, or a shape by the arm's first line."""
+    if task.placement is not None:
+        return task.placement
+    if is_shape(task) and not SHAPES[task.name].placed:
+        middle, _ = _first_line(robot)
+        # Letters stand so that somebody behind the arm can read them.
+        yaw = math.atan2(middle[1], middle[0]) - math.pi / 2 if task.name == "text" else 0.0
+        return Placement(middle, np.array([0.0, 0.0, yaw]))
+    return Placement(_unplaced(robot, task, None).middle, np.zeros(3))
+
+
+def task_path(robot: Robot, task: TrajectoryTask, q: ArrayLike | None = None) -> Path:
+    """The path of an experiment's trajectory, placed and with its orientation.
+
+    Args:
+        q: (n,) the present pose, whose orientation some paths keep or begin with; None for home.
+
+    Raises:
+        UnknownNameError: no such path, or a letter that cannot be written.
+        FormulaError: a formula that cannot be worked out.
+        ShapeError: a shape without points.
+        PathFileError, OSError: a file that cannot be read.
+    """
+    own = line_presets(robot)[0].orientation if is_shape(task) else "source"
+    orientation = own if task.orientation == "source" else task.orientation
+    path = _placed(robot, task, q)
+    if orientation == "source":
+        return path
+    wanted = Wanted(task.turn_from, task.turn_to, task.pitch, plane_normal(robot, task))
+    return oriented(robot, path, orientation, None, q, wanted)
+
+
+def plane_normal(robot: Robot, task: TrajectoryTask) -> FloatArray | None:
+    """(3,) of the plane that a flat shape is drawn in; None for other paths."""
+    if not is_shape(task) or SHAPES[task.name].placed:
+        return None
+    return np.asarray(rotation_from_rpy(placement_of(robot, task).rpy)[:, 2])
+
+
+def _placed(robot: Robot, task: TrajectoryTask, q: ArrayLike | None) -> Path:
+    if is_shape(task) and not SHAPES[task.name].placed:
+        kind, where = SHAPES[task.name], placement_of(robot, task)
+        drawing = kind.draw(shape_of(robot, task))
+        scaled = replace(drawing, points=where.scale * drawing.points)
+        T = transform(rotation_from_rpy(where.rpy), where.center)
+        return shapes.drawn_on(T, scaled, name=task.name, title=kind.title)
+    path = _unplaced(robot, task, q)
+    moved = task.placement
+    return path if moved is None else path.placed(moved.center, rotation_from_rpy(moved.rpy), moved.scale)
+
+
+def _unplaced(robot: Robot, task: TrajectoryTask, q: ArrayLike | None) -> Path:
+    if not is_shape(task):
+        return named_path(task.name, robot, orientation="source", height=task.height, q=q)
+    kind = SHAPES[task.name]
+    return shapes.drawn_on(np.eye(4), kind.draw(shape_of(robot, task)), name=task.name, title=kind.title)
+
+
+def _first_line(robot: Robot) -> tuple[FloatArray, float]:
+    """The middle (3,) and half the length of the arm's first line [m]."""
+    preset = line_presets(robot)[0]
+    return 0.5 * (preset.start + preset.end), 0.5 * float(np.linalg.norm(preset.end - preset.start))
