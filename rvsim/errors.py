@@ -7,6 +7,7 @@
     ├── RobotFileError         a robot file that cannot be read, with its path, table and key
     ├── UnknownNameError       a name outside a closed list (a path, a tool, an orientation)
     ├── PathFileError          a file of points that cannot be read, with its row and column
+    ├── ProgramFileError       a program that cannot be read, with its line and key
     ├── FileWriteError         a file that cannot be written, with its path and the reason
     ├── ExpressionError        a typed value that is no number
     ├── FormulaError           a typed formula of a path that cannot be worked out, with its stage and coordinate
@@ -92,6 +93,14 @@ class PathFileError(RvsimError, ValueError):
     def __init__(self, path: object, where: str, found: str, expected: str) -> None:
         self.path, self.where, self.found, self.expected = str(path), where, found, expected
         super().__init__(f"{path}: {where}: found {found}, expected {expected}.")
+
+
+class ProgramFileError(RvsimError, ValueError):
+    """A file of a program that cannot be read."""
+
+    def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
+        self.path, self.where, self.found, self.expected = str(path), where, found, expected
+        super().__init__(f"{path}: {where}: found {found}, expected {expected}. {suggestion}".rstrip())
 
 
 class FileWriteError(RvsimError, OSError):

@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rvsim.experiment.program import Program
 from rvsim.experiment.shapes import Placement, Shape
 from rvsim.motion.trajectory import Law
 from rvsim.robot import Robot
@@ -91,6 +92,7 @@ class Experiment:
     target: FloatArray | None = None
     law: Law = "quintic"
     path_seconds: float | None = None
+    program: Program = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "q", frozen_array("q", self.q, (self.robot.dof,)))
