@@ -49,7 +49,7 @@ def with_mass_value(robot: Robot, link: int, key: MassKey, value: float) -> Robo
 def with_guessed_masses(robot: Robot) -> Robot:
     """A copy whose links weigh 1 kg each, half-way between the joints at their ends: something to start from."""
     inertia = _LEAST_INERTIA * np.eye(3)
-    middles = (0.5 * way for way in _links(robot))
+    middles = (np.round(0.5 * way, 12) for way in _links(robot))  # a quarter turn leaves 1e-17 behind
     return replace(robot, masses=tuple(LinkMass(_GUESSED_MASS, com, inertia, True, _GUESSED) for com in middles))
 
 
