@@ -25,6 +25,7 @@ _PLACE_STEPS, _POSE_STEPS, _FINAL_STEPS = 60, 120, 20
 _PLACE_WEIGHT = 1e3  # the place over the angle, while both are improved together
 _DONE, _WORTH, _IDLE = 1e-13, 1e-7, 4  # over when for so many steps no start has gained that share of its error
 _IN_REACH = 1e-6  # of the size: a place approached so closely is in reach
+_REGULAR = 1e-13  # of the trace of JᵀJ: the least damping
 _SAME_PLACE = 1e-7  # of the size: position errors closer than this count as equal
 
 
@@ -125,7 +126,9 @@ def _step(search: _Search, q: FloatArray, errors: FloatArray, J: FloatArray, dam
     stuck = ((q <= search.bounds[:, 0]) & (gradient < 0.0)) | ((q >= search.bounds[:, 1]) & (gradient > 0.0))
     free = np.where(stuck[:, None, :], 0.0, J)
     normal = free.transpose(0, 2, 1) @ free
-    scale = damping * np.linalg.norm(errors, axis=1) + 1e-14
+    # Where two axes lie in one line, rounding must not swallow what keeps the system regular.
+    least = 1e-14 + _REGULAR * np.trace(normal, axis1=1, axis2=2)
+    scale = damping * np.linalg.norm(errors, axis=1) + least
     normal += scale[:, None, None] * np.eye(q.shape[1])
     return np.asarray(np.linalg.solve(normal, np.where(stuck, 0.0, gradient)[..., None])[..., 0])
 

@@ -7,6 +7,7 @@ import pytest
 
 from rvsim import forward_kinematics, inverse_kinematics, load_robot
 from rvsim.kinematics import free_pitch_batch
+from rvsim.kinematics.inverse.nearest import nearest_configuration
 from rvsim.spatial import rotation_from_vector
 
 ARMS = ("rv-m1", "rv-1a", "ur5e", "al5b", "rrrp", "articulated", "spherical", "scara", "cylindrical")
@@ -54,3 +55,11 @@ def test_where_a_5r_arm_cannot_have_the_projected_pitch_it_has_the_nearest_it_ca
             assert failure.nearest.rotation_error == pytest.approx(best, abs=2e-3)
             seen += 1
     assert seen > 10
+
+
+def test_two_axes_in_one_line_stop_no_search():
+    robot = load_robot("ur5e").with_joint(1, alpha=0.0, a=0.0)
+    for T in random_targets(12, robot.size, robot.T_base_0[:3, 3]):
+        anywhere = np.tile([-np.inf, np.inf], (robot.dof, 1))
+        found = nearest_configuration(robot, T, robot.home, anywhere, robot.home[None], place_only=False)
+        np.testing.assert_allclose(forward_kinematics(robot, found.q), found.T, atol=1e-9)
