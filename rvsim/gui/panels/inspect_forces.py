@@ -65,6 +65,7 @@ class Pull:
 class ForcesPage(InspectPage):
     """τ = Jᵀ F, live."""
 
+    always = True
     title = "Forces"
     name = "inspect_forces"
 

@@ -46,6 +46,7 @@ _PLAIN = str.maketrans("ẋẏżωφθψ′", "xyzwpts'")
 class JacobianPage(InspectPage):
     """Shows J of the present pose."""
 
+    always = True
     title = "Jacobian"
     name = "inspect_jacobian"
 

@@ -36,6 +36,8 @@ _UNIT_NAMES = {"°": "deg", "rad": "rad", "mm": "mm", "m": "m", "unit": "unit", 
 class ToolPanel(ReadOutPanel):
     """Reads out T_base_tool; an edited number is solved for the joints."""
 
+    always = True
+
     settings = NUMBER_SETTINGS | {"orientation"}
 
     def __init__(self, session: Session, preferences: Preferences, parent: QWidget | None = None) -> None:
