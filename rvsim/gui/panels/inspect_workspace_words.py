@@ -45,33 +45,33 @@ class Values(NamedTuple):
 
 
 def values_of(survey: Survey, section: SectionMap, color: str) -> Values:
-    """The values of a section under a choice of colour."""
+    """The values of a section under a choice of colour; the scale is that of both sections and the cloud."""
     if color == "branches" and section.branches is not None:
-        counts = section.branches
-        return Values(counts, _largest(counts), "branches, the most at each place", whole=True)
+        return Values(section.branches, _largest(survey, color), "branches, the most at each place", whole=True)
     if color == "none":
         return Values(None, 1.0, "")
     shape = "√det(JᵀJ)" if survey.workspace.task.robot.dof < 6 else "√det(JJᵀ)"
-    measure = section.manipulability
-    return Values(measure, _largest(measure), f"largest manipulability {shape}, in SI units")
+    title = f"largest manipulability {shape}, in SI units"
+    return Values(section.manipulability, _largest(survey, "manipulability"), title)
 
 
 def cloud_shares(survey: Survey, color: str) -> FloatArray:
     """(m,) 0…1 for the cloud, by the same scale as the maps."""
     result = survey.workspace
     if color == "branches" and result.cloud_branches is not None:
-        return _shares(result.cloud_branches - 1.0)
+        return np.asarray((result.cloud_branches - 1.0) / max(_largest(survey, color) - 1.0, 1.0))
     if color == "none":
         return np.full(len(result.cloud), 0.5)
-    return _shares(result.cloud_manipulability)
+    return np.asarray(result.cloud_manipulability / max(_largest(survey, "manipulability"), 1e-300))
 
 
-def _largest(values: FloatArray) -> float:
-    return float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
-
-
-def _shares(values: FloatArray) -> FloatArray:
-    return np.asarray(values / max(float(values.max(initial=0.0)), 1e-300))
+def _largest(survey: Survey, color: str) -> float:
+    result = survey.workspace
+    maps = (result.side.branches, result.top.branches, result.cloud_branches)
+    if color != "branches":
+        maps = (result.side.manipulability, result.top.manipulability, result.cloud_manipulability)
+    found = [float(values[~np.isnan(values)].max(initial=0.0)) for values in maps if values is not None]
+    return max(found) or 1.0
 
 
 def refusal(robot: Robot, choice: str) -> str:

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from rvsim.files import load_robot
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.inspect_workspace import WorkspacePage
-from rvsim.gui.panels.inspect_workspace_words import FIGURES, Values
+from rvsim.gui.panels.inspect_workspace_words import FIGURES, Values, cloud_shares, values_of
 from rvsim.gui.renderers.choose import Choice, renderer_factory
 from rvsim.gui.scene_view import SceneView
 from rvsim.gui.stage import Stage
@@ -112,6 +112,17 @@ def test_branches_are_counted_once_they_are_asked_for(page_of, qtbot) -> None:
     sampled(page, qtbot)
     assert page.section.branches is not None
     assert "branches" in page._bar.accessibleName()
+
+
+def test_maps_and_cloud_have_one_scale(page_of, qtbot) -> None:
+    page = page_of("rv-m1")
+    select(page.colors, "branches")
+    survey = sampled(page, qtbot).survey
+    result = survey.workspace
+    for color in ("branches", "manipulability"):
+        largest = {values_of(survey, section, color).largest for section in (result.side, result.top)}
+        assert len(largest) == 1
+        assert 0.0 <= cloud_shares(survey, color).min() <= cloud_shares(survey, color).max() <= 1.0
 
 
 def test_with_the_tool_held_no_poses_are_sampled(page_of, qtbot) -> None:
