@@ -35,7 +35,8 @@ def branches_on(robot: Robot, path: Path, near: FloatArray) -> FloatArray:
         NoClosedFormError: the arm has no closed form.
     """
     if path.rotations is not None or robot.dof < 4:
-        return _on_the_points(robot, inverse_kinematics_batch(robot, path.poses()), path.points)
+        q = inverse_kinematics_batch(robot, path.poses())
+        return q if closed_form(robot).task == "pose" else _on_the_points(robot, q, path.points)
     q = _free(robot, path.points, near)
     if _last_joint_only_turns(robot):
         q[..., -1] = np.where(np.isnan(q[..., -1]), np.nan, near[-1])

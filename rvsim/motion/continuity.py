@@ -20,6 +20,7 @@ from rvsim.spatial.rotation_vectors import rotation_from_vector, rotation_vector
 _BESIDE, _FAR = 0.05, 0.75
 # The same for the tool's orientation [rad].
 _TILT, _FAR_TILT = 0.1, 1.5
+_HARDLY = 1.0 + 2.0 * np.cos(0.5 * _TILT)
 # What nobody would call a deviation, and what is a rounding, in sizes of the arm.
 _NEGLIGIBLE, _SAME_PLACE = 1e-4, 1e-7
 _HALVINGS = 8
@@ -29,6 +30,16 @@ _STEPS, _LONGEST_STEP, _NEAR_ENOUGH = 20, 0.5, 1e-3
 _ORIENTATION_WEIGHT = 1e-3
 
 Mask = NDArray[np.bool_]
+
+
+def continuous_run(robot: Robot, q: FloatArray, with_rotation: bool) -> Mask:
+    """(k − 1,) the same for each step of poses q (k, n), which are without whole turns between them."""
+    T = forward_kinematics(robot, np.concatenate([q, 0.5 * (q[:-1] + q[1:])]))
+    result, far = beside(robot, T[: len(q) - 1], T[len(q) :], T[1 : len(q)], with_rotation)
+    doubtful = np.flatnonzero(~(result | far))
+    if len(doubtful):
+        result[doubtful] = continuous(robot, q[doubtful], q[doubtful + 1], with_rotation)
+    return result
 
 
 def continuous(robot: Robot, q0: FloatArray, q1: FloatArray, with_rotation: bool) -> Mask:
@@ -61,9 +72,22 @@ def beside(
     least = _NEGLIGIBLE * robot.size
     near, far = sideways <= _BESIDE * length + least, sideways > _FAR * length + least
     if with_rotation:
-        tilt = _tilt(start[:, :3, :3], middle[:, :3, :3], end[:, :3, :3])
-        near, far = near & (tilt <= _TILT), far | (tilt > _FAR_TILT)
+        turned = np.flatnonzero(~_hardly_turned(start, middle, end))
+        if len(turned):
+            tilt = _tilt(*(T[turned, :3, :3] for T in (start, middle, end)))
+            near[turned] &= tilt <= _TILT
+            far[turned] |= tilt > _FAR_TILT
     return np.asarray(near), np.asarray(far)
+
+
+def _hardly_turned(start: FloatArray, middle: FloatArray, end: FloatArray) -> Mask:
+    """(k,) whether the middle orientation is so near to both others that no tilt can count: half of it from each.
+
+    The trace of a rotation is 1 + 2 cos of its angle, and that of AᵀB is the sum of products of their entries.
+    """
+    R = middle[:, :3, :3]
+    traces = [np.einsum("kij,kij->k", T[:, :3, :3], R) for T in (start, end)]
+    return np.asarray(np.minimum(*traces) > _HARDLY)
 
 
 def _tilt(start: FloatArray, middle: FloatArray, end: FloatArray) -> FloatArray:

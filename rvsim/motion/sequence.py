@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rvsim.kinematics.forward import forward_kinematics
 from rvsim.motion.continuity import beside, continuous
+from rvsim.motion.straight import straight_column
 from rvsim.motion.turns import JointRange, existing, nearest_turn, whole_turns
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -43,29 +45,64 @@ class _Link:
     fresh: NDArray[np.bool_]
 
 
+class Sequence(NamedTuple):
+    """q (m, n), unwrapped, NaN where a point has no branch; `sure`: every step is known to keep to the path."""
+
+    q: FloatArray
+    sure: bool
+
+
 def best_sequence(
     robot: Robot, branches: FloatArray, near: FloatArray, joints: JointRange, with_rotation: bool
-) -> FloatArray:
-    """(m, n) one pose a point, unwrapped, of branches (m, s, n); NaN where a point has no branch.
+) -> Sequence:
+    """One pose a point, of branches (m, s, n).
 
     Args:
-        branches: within the limits, NaN rows where there is none.
+        branches: within the limits, or with a copy within them where a joint can turn a whole turn; NaN rows where
+            there is none.
         near: (n,) the present pose.
         joints: the limits that count.
         with_rotation: whether the orientation belongs to the path.
     """
-    q = np.full((len(branches), robot.dof), np.nan)
     stages = np.flatnonzero(existing(branches).any(axis=1))
+    if len(stages) == len(branches):
+        return _sequence(robot, branches, np.ones(len(stages) - 1, dtype=bool), near, joints, with_rotation)
+    q = np.full((len(branches), robot.dof), np.nan)
     if not len(stages):
-        return q
-    chosen, fresh = _chosen(robot, branches[stages], np.diff(stages) == 1, near, joints, with_rotation)
-    q[stages] = _unwrapped(branches[stages, chosen], fresh, near, joints)
-    return q
+        return Sequence(q, True)
+    q[stages], sure = _sequence(robot, branches[stages], np.diff(stages) == 1, near, joints, with_rotation)
+    return Sequence(q, sure)
 
 
 def motion_weights(robot: Robot) -> FloatArray:
     """(n,) what a joint's motion counts: 1 a radian; a slide across the whole arm as much as half a turn."""
     return np.where(robot.is_revolute, 1.0, np.pi / robot.size)
+
+
+def _sequence(
+    robot: Robot, q: FloatArray, adjacent: NDArray[np.bool_], near: FloatArray, joints: JointRange, with_rotation: bool
+) -> Sequence:
+    """Of branches q (k, s, n) at points each of which has some."""
+    straight = _straight(robot, q, adjacent, near, joints, with_rotation)
+    if straight is not None:
+        return Sequence(straight, True)
+    chosen, fresh = _chosen(robot, q, adjacent, near, joints, with_rotation)
+    return Sequence(_unwrapped(q[np.arange(len(q)), chosen], fresh, near, joints), False)
+
+
+def _straight(
+    robot: Robot, q: FloatArray, adjacent: NDArray[np.bool_], near: FloatArray, joints: JointRange, with_rotation: bool
+) -> FloatArray | None:
+    """(k, n) the best sequence where it is one branch alone, and its runs fit into the limits."""
+    if q.shape[1] > _FEW:
+        return None
+    weights = motion_weights(robot)
+    front = _first(q[0], near, joints, weights)
+    column = straight_column(robot, q, front.cost, adjacent, joints, weights, with_rotation)
+    if column is None:
+        return None
+    found = _unwrapped(q[:, column], np.concatenate([[True], ~adjacent]), near, joints)
+    return found if not joints.outside(found).any() else None
 
 
 def _chosen(

@@ -43,7 +43,7 @@ def track(robot: Robot, path: Path, *, near: ArrayLike | None = None, ignore_lim
     present = robot.home if near is None else frozen_array("near", near, (robot.dof,))
     joints = JointRange.of(robot, ignore_limits)
     with_rotation = path.rotations is not None and robot.dof > 3
-    q = best_sequence(robot, _usable(robot, path, present, joints), present, joints, with_rotation)
+    q, sure = best_sequence(robot, _usable(robot, path, present, joints), present, joints, with_rotation)
     elapsed = perf_counter() - start
     return Tracking(
         robot,
@@ -51,7 +51,7 @@ def track(robot: Robot, path: Path, *, near: ArrayLike | None = None, ignore_lim
         q,
         unreached=_reasons(robot, path, np.flatnonzero(~existing(q)), present),
         actual=_tool_points(robot, q),
-        jumps=find_jumps(robot, q, with_rotation),
+        jumps=() if sure else find_jumps(robot, q, with_rotation),
         solve_seconds=elapsed,
         ignore_limits=ignore_limits,
     )
@@ -81,6 +81,8 @@ def _usable(robot: Robot, path: Path, near: FloatArray, joints: JointRange) -> F
 
 def _within(branches: FloatArray, near: FloatArray, joints: JointRange) -> FloatArray:
     """The branches (m, s, n) as copies within the limits, NaN rows where no copy is."""
+    if joints.periodic.all():
+        return branches  # some copy of each is within
     copies = joints.nearest_copy(branches, near)
     outside = np.any(joints.outside(copies) > 0.0, axis=-1, keepdims=True)
     return np.where(outside, np.nan, copies)
