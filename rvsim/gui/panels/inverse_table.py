@@ -315,7 +315,8 @@ class BranchTable(QTableView):
             self.setColumnHidden(index, index not in shown)
         joints, widest = shown[1:], max((columns[index].widest for index in shown[1:]), key=len)
         name = text_metrics().horizontalAdvance("#") + _HEAD_PADDING
-        room = (self.viewport().width() - name) // len(joints)
+        width = self.viewport().width()
+        room = (width - name) // len(joints)
         self._ink = RowInk(widest, room - PAD - 1)
         least = QFontMetrics(self._ink.small).horizontalAdvance(widest) + PAD + 1
         bar = Qt.ScrollBarPolicy.ScrollBarAsNeeded if least > room else Qt.ScrollBarPolicy.ScrollBarAlwaysOff
@@ -323,6 +324,8 @@ class BranchTable(QTableView):
         for index in shown:
             self.setColumnWidth(index, max(room, least) if index in joints else name)
         self._fit_rows()
+        if self.viewport().width() != width:  # higher rows brought a scroll bar
+            self.fit_columns()
 
     def _fit_rows(self) -> None:
         """High enough for the title and the joints, and for a limit that has no room beside the title."""
