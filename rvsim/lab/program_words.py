@@ -1,0 +1,127 @@
+"""Moves of a program in words, and why one cannot be done: what a list of moves and a message say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import partial
+from typing import Any
+
+from rvsim.experiment.program import ArcMove, Gripper, JointMove, LineMove, Move, Wait
+from rvsim.lab.sentences import MINUS, Units, joint_amount, length_number, reasons
+from rvsim.motion.program import Plan, Problem, ProblemKind
+from rvsim.robot import Robot
+
+_TOOLS = {"keep": "", "turn": ", tool turned", "free": ", tool free"}
+_DEFAULT = Units()
+
+
+def move_words(move: Move, robot: Robot, units: Units = _DEFAULT) -> str:
+    """One move in a line: "line to (300.0, 0.0, 250.0) mm, tool free, 50 %"."""
+    return str(_WORDS[type(move)](move, robot, units))
+
+
+def _joint(move: JointMove, robot: Robot, units: Units) -> str:
+    if move.pose:
+        return f"joints to “{move.pose}”, {_percent(move.speed)}"
+    names = robot.joint_names
+    if len(move.q) != len(names):
+        return f"joints of an arm with {len(move.q)} joints"
+    values = (joint_amount(robot, name, value, units) for name, value in zip(names, move.q, strict=True))
+    return f"joints to ({', '.join(values)}), {_percent(move.speed)}"
+
+
+def _line(move: LineMove, robot: Robot, units: Units) -> str:
+    return f"line to {_place(move.to, robot, units)}{_TOOLS[move.tool]}, {_percent(move.speed)}"
+
+
+def _arc(move: ArcMove, robot: Robot, units: Units) -> str:
+    via, to = (_place(place, robot, units) for place in (move.via, move.to))
+    return f"arc over {via} to {to}{_TOOLS[move.tool]}, {_percent(move.speed)}"
+
+
+def _wait(move: Wait, _robot: Robot, _units: Units) -> str:
+    return f"wait {move.seconds:g} s"
+
+
+def _gripper(move: Gripper, _robot: Robot, _units: Units) -> str:
+    return {0.0: "close the gripper", 1.0: "open the gripper"}.get(
+        move.opening, f"gripper {_percent(move.opening)} open"
+    )
+
+
+_WORDS: dict[type[Move], Callable[[Any, Robot, Units], str]] = {
+    JointMove: _joint,
+    LineMove: _line,
+    ArcMove: _arc,
+    Wait: _wait,
+    Gripper: _gripper,
+}
+
+
+def problem_sentence(robot: Robot, move: Move, problem: Problem, units: Units = _DEFAULT) -> str:
+    """Why a move cannot be done, and what would help."""
+    return _PROBLEMS[problem.kind](robot, move, problem, units)
+
+
+def _no_pose(_robot: Robot, move: Move, _problem: Problem, _units: Units) -> str:
+    name = move.pose if isinstance(move, JointMove) else ""
+    return f"No pose is remembered as “{name}”: save one under Arm, or give the joints."
+
+
+def _outside(robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
+    value, limit = (joint_amount(robot, problem.joint, number, units) for number in (problem.value, problem.limit))
+    return f"The {problem.joint} would go to {value} and stops at {limit}."
+
+
+def _missed(_robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
+    assert problem.tracking is not None
+    tracking = problem.tracking
+    share = tracking.unreached[0].index / tracking.samples
+    why = reasons(tracking, units)[0].split(": ", 1)[-1]
+    reached = "from the very start" if share == 0.0 else f"after {_percent(share)} of the way"
+    return f"{reached[0].upper()}{reached[1:]} the arm cannot follow: {why}."
+
+
+def _beside(robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
+    number, unit = length_number(robot, problem.value, units)
+    return f"The tool would leave its way by {number:.2g} {unit}: it passes too near to a singular pose."
+
+
+def _said(text: str, *_: object) -> str:
+    return text
+
+
+_PROBLEMS: dict[ProblemKind, Callable[[Robot, Move, Problem, Units], str]] = {
+    "pose": _no_pose,
+    "joints": partial(_said, "The numbers are those of an arm with other joints."),
+    "limits": _outside,
+    "path": _missed,
+    "branch": partial(_said, "The arm would have to change its branch on the way: put a joint move before it."),
+    "tolerance": _beside,
+    "no closed form": partial(_said, "This arm has no closed form for its inverse kinematics: use joint moves."),
+}
+
+
+def plan_sentence(plan: Plan, units: Units = _DEFAULT) -> str:
+    """The whole in one sentence: "All 5 moves can be done, in 12.3 s."."""
+    count, seconds = len(plan.moves), float(plan.starts[-1])
+    if not count:
+        return "No move yet: add the present pose, a line to where the tool is, or a wait."
+    if plan.problem is None:
+        every = "The one move" if count == 1 else f"All {count} moves"
+        return f"{every} can be done, in {seconds:.1f} s."
+    number = len(plan.steps)
+    why = problem_sentence(plan.robot, plan.moves[number], plan.problem, units)
+    return f"Move {number + 1} of {count} cannot be done. {why}"
+
+
+def _place(place: Iterable[float], robot: Robot, units: Units) -> str:
+    numbers = [length_number(robot, value, units) for value in place]
+    unit = numbers[0][1]
+    decimals = 1 if unit == "mm" else 3
+    texts = (f"{round(number, decimals) + 0.0:.{decimals}f}".replace("-", MINUS) for number, _ in numbers)
+    return f"({', '.join(texts)}) {unit}"
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f} %"
