@@ -87,6 +87,7 @@ class Commands(QObject):
         self._session.tracking_changed.connect(lambda *_: self._show_enabled())
         self._window.motion.state_changed.connect(lambda *_: self._show_enabled())
         self._window.motion.loaded.connect(self._show_enabled)
+        self._window.gizmo.axes_switched.connect(self._window.actions_by_name["tool_axes"].setChecked)
         self._window.gizmo.switched.connect(self._window.actions_by_name["drag_tool"].setChecked)
         self._show_switches("")
         self._show_ignore()
@@ -114,6 +115,7 @@ class Commands(QObject):
             "plot": joints.plot_typed,
             "save_pose": joints.ask_pose_name,
             "ignore_limits": joints.ignore.toggle,
+            "tool_axes": lambda: window.gizmo.set_tool_axes(window.actions_by_name["tool_axes"].isChecked()),
             "drag_tool": lambda: window.gizmo.switch(window.actions_by_name["drag_tool"].isChecked()),
             "track_line": window.tracker.track_line,
             "track_trajectory": window.tracker.track_trajectory,

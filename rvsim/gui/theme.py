@@ -120,7 +120,7 @@ QCheckBox:focus {{ color: {accent}; }}
 QScrollArea {{ border: none; background: transparent; }}
 QStatusBar {{ background: {window}; border-top: 1px solid {border}; }}
 QStatusBar::item {{ border: none; }}
-QLabel#tool_card {{ background: {raised}; border: 1px solid {border}; border-radius: 6px; padding: 5px 8px; }}
+QLabel#tool_card {{ background: {raised}; border: 1px solid {border}; border-radius: 6px; }}
 QLabel[role="muted"] {{ color: {muted}; }}
 QLabel[role="title"] {{ font-weight: 600; }}
 QLabel[level="warning"] {{ color: {warning}; }}

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-import re
+from typing import NamedTuple
 
 import numpy as np
-from PySide6.QtCore import QEvent, Qt, QTimer
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtCore import QRect, QSize, Qt, QTimer
+from PySide6.QtGui import QFont, QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel, QStyle, QStyleOption, QWidget
 
 from rvsim.experiment import Experiment
 from rvsim.gui.preferences import Preferences
@@ -18,31 +19,40 @@ from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rpy_from_rotation
 
 _MARGIN = 12
-_GAP = 14  # [pixels] between a number and the next name; a cell's width contains it
-_NUMBERS = re.compile(r"−?\d{1,4}")
+_PADDING_X, _PADDING_Y = 12, 6
+_NAME_GAP, _GAP = 5, 14  # [pixels] between a name and its number, and between a number and the next name
 _WIDEST_LENGTH = -8.888  # [m]
 _UNIT_SETTINGS = ("angle_unit", "length_unit", "extra_decimals", "theme", "presentation")
+_NAMES = (("x", "y", "z"), ("roll", "pitch", "yaw"))
+
+
+class _Row(NamedTuple):
+    """A line of the card: names, numbers, their unit, and the room for the widest usual number [pixels]."""
+
+    names: tuple[str, ...]
+    numbers: tuple[str, ...]
+    unit: str
+    room: int
 
 
 class ToolCard(QLabel):
-    """Position and roll, pitch, yaw of the tool, in the upper left corner of `stage`."""
+    """Position and roll, pitch, yaw of the tool, in the upper left corner of `stage`.
+
+    It paints its numbers itself: rich text takes a millisecond, in every frame.
+    """
 
     def __init__(self, session: Session, preferences: Preferences, stage: QWidget) -> None:
         super().__init__(stage)
         self._session, self._preferences = session, preferences
-        self._outline = ""
+        self._rows: tuple[_Row, ...] = ()
         self.setObjectName("tool_card")
         self.setAccessibleName("Tool pose")
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.setTextFormat(Qt.TextFormat.RichText)
+        self.setTextFormat(Qt.TextFormat.PlainText)
         session.changed.connect(self._on_changed)
         preferences.changed.connect(self._on_preference)
         self.move(_MARGIN, _MARGIN)
         self._show()
-
-    def event(self, event: QEvent) -> bool:
-        """Without the text's own belated update: it would have the scene below painted a second time."""
-        return event.type() == QEvent.Type.UpdateLater or super().event(event)
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         if after.q is not before.q or after.robot is not before.robot:
@@ -50,33 +60,66 @@ class ToolCard(QLabel):
 
     def _on_preference(self, name: str) -> None:
         if name in _UNIT_SETTINGS:
-            self._outline = ""
             QTimer.singleShot(0, self, self._show)  # when the theme has given the card its font
 
     def _show(self) -> None:
         robot = self._session.robot
         T = forward_kinematics(robot, self._session.q)
-        lengths = self._row(("x", "y", "z"), T[:3, 3], length_kind(robot))
-        angles = self._row(("roll", "pitch", "yaw"), rpy_from_rotation(T[:3, :3]), "angle")
-        text = f"<table cellspacing=0>{lengths}{angles}</table>"
-        self.setText(text)
-        # A label of a fixed size never makes the window lay itself out anew, and measuring takes a millisecond: only a
-        # number that is too long for its column makes the card wider.
-        outline = _NUMBERS.sub("0", text)
-        if outline != self._outline:
-            self._outline = outline
-            self.setFixedSize(self.sizeHint())
+        values = (T[:3, 3], rpy_from_rotation(T[:3, :3]))
+        kinds: tuple[Kind, Kind] = (length_kind(robot), "angle")
+        self._rows = tuple(self._row(*each) for each in zip(_NAMES, values, kinds, strict=True))
+        wanted = self.sizeHint()
+        if wanted != self.size():
+            self.setFixedSize(wanted)
+        self.update()
 
-    def _row(self, names: tuple[str, ...], values: FloatArray, kind: Kind) -> str:
+    def text(self) -> str:
+        """What is read out, for screen readers and for whoever asks."""
+        lines = (" ".join(f"{n} {v}" for n, v in zip(row.names, row.numbers, strict=True)) for row in self._rows)
+        return "\n".join(f"{line} {row.unit}" for line, row in zip(lines, self._rows, strict=True))
+
+    def _row(self, names: tuple[str, ...], values: FloatArray, kind: Kind) -> _Row:
         shown = display(kind, self._preferences)
         widest = format_number((-math.pi if kind == "angle" else _WIDEST_LENGTH) * shown.factor, shown.decimals)
-        width = self.fontMetrics().horizontalAdvance(widest) + _GAP
         if kind == "angle":
             values = np.array([half_turn_up(float(value), shown) for value in values])
-        cells = "".join(
-            f"<td style='padding-right:4px'><i>{name}</i></td>"
-            f"<td align=right width={width} style='padding-right:{_GAP}px'>"
-            f"{format_number(value * shown.factor, shown.decimals)}</td>"
-            for name, value in zip(names, values, strict=True)
-        )
-        return f"<tr>{cells}<td>{shown.suffix.strip()}</td></tr>"
+        numbers = tuple(format_number(float(value) * shown.factor, shown.decimals) for value in values)
+        return _Row(names, numbers, shown.suffix.strip(), self.fontMetrics().horizontalAdvance(widest))
+
+    def _columns(self) -> tuple[list[int], list[int], int]:
+        """How wide the names, the numbers and the unit of each column are [pixels]."""
+        width = self.fontMetrics().horizontalAdvance
+        names = [max(width(row.names[i]) for row in self._rows) for i in range(3)]
+        numbers = [max(max(row.room, width(row.numbers[i])) for row in self._rows) for i in range(3)]
+        return names, numbers, max(width(row.unit) for row in self._rows)
+
+    def sizeHint(self) -> QSize:
+        """Room for every column; it does not change while the arm moves, unless a number is longer than usual."""
+        names, numbers, unit = self._columns()
+        width = sum(names) + sum(numbers) + 3 * (_NAME_GAP + _GAP) + unit
+        height = len(self._rows) * self.fontMetrics().height()
+        return QSize(width + 2 * _PADDING_X, height + 2 * _PADDING_Y)
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """The card and its two lines."""
+        option = QStyleOption()
+        option.initFrom(self)
+        painter = QPainter(self)
+        self.style().drawPrimitive(QStyle.PrimitiveElement.PE_Widget, option, painter, self)
+        painter.setPen(self.palette().windowText().color())
+        upright, slanted = QFont(self.font()), QFont(self.font())
+        slanted.setItalic(True)
+        names, numbers, _ = self._columns()
+        height = self.fontMetrics().height()
+        left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+        right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        for line, row in enumerate(self._rows):
+            x, y = _PADDING_X, _PADDING_Y + line * height
+            for i, (name, number) in enumerate(zip(row.names, row.numbers, strict=True)):
+                painter.setFont(slanted)
+                painter.drawText(QRect(x, y, names[i] + _GAP, height), left, name)
+                x += names[i] + _NAME_GAP
+                painter.setFont(upright)
+                painter.drawText(QRect(x, y, numbers[i], height), right, number)
+                x += numbers[i] + _GAP
+            painter.drawText(QRect(x, y, self.width() - x, height), left, row.unit)
