@@ -64,9 +64,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec(
         "drag_tool", "&Robot", "Drag the tool", "Arrows, squares and rings to drag the tool by", "G", True, before=True
     ),
-    ActionSpec(
-        "tool_axes", "&Robot", "Drag along the tool's axes", "T in the scene; else along those of the base", "", True
-    ),
+    ActionSpec("tool_axes", "&Robot", "Drag along the tool's axes", "T in the scene; else the base's", "Shift+G", True),
     ActionSpec("live", "&Robot", "Live", "The arm follows each value at once", "Ctrl+Shift+L", True),
     ActionSpec("ignore_limits", "&Robot", "Ignore limits", "Let joints go beyond their limits", "Ctrl+I", True),
     ActionSpec("track_line", "&Path", "Track line", "Move the tool along the line", "Ctrl+L"),
