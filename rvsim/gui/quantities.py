@@ -49,6 +49,7 @@ _DISPLAYS: dict[tuple[str, str], Display] = {
     ("inertia", ""): Display(1.0, " kg m²", 5, 0.001),
     ("energy", ""): Display(1.0, " J", 2, 1.0),
     ("gravity", ""): Display(1.0, " m/s²", 3, 0.1),
+    ("time", ""): Display(1.0, " s", 2, 0.1),
     ("percent", ""): Display(100.0, " %", 0, 1.0),
 }
 
