@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rvsim.errors import ShapeError
+from rvsim.errors import SettingError, ShapeError
 from rvsim.robot import Convention, Robot
 from rvsim.spatial import rot_x, rot_z, transform
 from rvsim.spatial.arrays import FloatArray
@@ -24,6 +24,20 @@ def joint_array(robot: Robot, q: ArrayLike) -> FloatArray:
     array: FloatArray = np.asarray(q, dtype=np.float64)
     if array.ndim == 0 or array.shape[-1] != robot.dof:
         raise ShapeError("q", f"(..., {robot.dof})", array.shape)
+    return array
+
+
+def one_pose(robot: Robot, q: ArrayLike, name: str) -> FloatArray:
+    """q as the one finite pose (n,) that is asked for under that name.
+
+    Raises:
+        ShapeError: it is not (n,). SettingError: it is not finite.
+    """
+    array: FloatArray = np.asarray(q, dtype=np.float64)
+    if array.shape != (robot.dof,):
+        raise ShapeError(name, f"({robot.dof},)", array.shape)
+    if not np.isfinite(array).all():
+        raise SettingError(name, array.tolist(), "finite")
     return array
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import PoseError, ShapeError
-from rvsim.kinematics.dh import joint_array
+from rvsim.kinematics.dh import one_pose
 from rvsim.kinematics.inverse.batch import solve_block
 from rvsim.kinematics.inverse.closed_form import ClosedForm
 from rvsim.kinematics.inverse.families import closed_form
@@ -59,7 +59,7 @@ def inverse_kinematics(
     Raises:
         NoClosedFormError: the arm has no closed form.
         UnknownNameError: a task or a criterion that does not exist.
-        PoseError: T is no pose. ShapeError: T is not (4, 4), near not (n,).
+        PoseError: T is no pose. ShapeError: T is not (4, 4), near not (n,). SettingError: near is not finite.
     """
     tried = attempt(robot, T, task=task, near=near, order=order)
     return InverseResult(tried.branches, None if tried.reached else tried.failure())
@@ -106,7 +106,7 @@ def attempt(
     """The branches alone: `inverse_kinematics` for somebody in a hurry, with the same arguments and errors."""
     form = closed_form(robot)
     target = _pose(T)
-    here = robot.home if near is None else joint_array(robot, near)
+    here = robot.home if near is None else one_pose(robot, near, "near")
     found = candidates(form, task, target, here)
     return Attempt(form, found, in_order(branches_of(robot, found, here), order), here, order)
 

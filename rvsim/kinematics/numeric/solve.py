@@ -7,8 +7,8 @@ import time
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rvsim.errors import SettingError, ShapeError
-from rvsim.kinematics.dh import joint_array
+from rvsim.errors import ShapeError
+from rvsim.kinematics.dh import one_pose
 from rvsim.kinematics.numeric.attempt import Attempt, Budget, Clock, attempt
 from rvsim.kinematics.numeric.bounds import start_ranges
 from rvsim.kinematics.numeric.methods import new_method
@@ -17,7 +17,6 @@ from rvsim.kinematics.numeric.problem import Problem
 from rvsim.kinematics.numeric.result import ENDING, Kind, NumericResult, reason_in_words
 from rvsim.kinematics.numeric.target import target_poses
 from rvsim.robot import Robot
-from rvsim.spatial.arrays import FloatArray
 
 _DEFAULTS = SolverOptions()
 
@@ -55,17 +54,8 @@ def solve_numeric(
     target = target_poses(T, asked)
     if target.ndim != 2:
         raise ShapeError("T", "(4, 4)", target.shape)
-    start = _start(robot, q0)
+    start = robot.home if q0 is None else one_pose(robot, q0, "q0")
     return _search(Problem(robot, target, asked, options), chosen, start, Budget(options, clock))
-
-
-def _start(robot: Robot, q0: ArrayLike | None) -> FloatArray:
-    start = robot.home if q0 is None else joint_array(robot, q0)
-    if start.ndim != 1:
-        raise ShapeError("q0", f"({robot.dof},)", start.shape)
-    if not np.isfinite(start).all():
-        raise SettingError("q0", start.tolist(), "finite")
-    return start
 
 
 def _search(problem: Problem, solver: Solver, start: FloatArray, budget: Budget) -> NumericResult:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rvsim.kinematics.dh import joint_array
+from rvsim.kinematics.dh import one_pose
 from rvsim.kinematics.inverse import Branch, inverse_kinematics
 from rvsim.kinematics.inverse.batch import solve_block
 from rvsim.kinematics.inverse.closed_form import ClosedForm
@@ -66,11 +66,11 @@ def worked_solution(robot: Robot, T: ArrayLike, near: ArrayLike | None = None) -
 
     Raises:
         NoClosedFormError: the arm has none; the message says which condition it breaks.
-        ShapeError: T is not (4, 4).
+        ShapeError: T is not (4, 4), near not (n,). SettingError: near is not finite.
         PoseError: T is no pose.
     """
     form = closed_form(robot)
-    here = robot.home if near is None else joint_array(robot, near)
+    here = robot.home if near is None else one_pose(robot, near, "near")
     result = inverse_kinematics(robot, T, near=here)
     pose = floats("T", T, 4, 4)
     known = dict(zip(form.labels, solve_block(form, pose[None], here)[:, :, 0], strict=True))

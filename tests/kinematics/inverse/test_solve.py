@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rvsim import forward_kinematics, inverse_kinematics, load_robot
-from rvsim.errors import NoClosedFormError, PoseError, ShapeError, UnknownNameError
-from rvsim.kinematics import free_pitch_batch, inverse_tasks, jacobian
+from rvsim.errors import NoClosedFormError, PoseError, SettingError, ShapeError, UnknownNameError
+from rvsim.kinematics import free_pitch_batch, inverse_tasks, jacobian, solve_numeric
 from rvsim.robot import Joint, Robot
 
 DOWN = np.diag([1.0, -1.0, -1.0])
@@ -202,6 +202,20 @@ class TestWhatIsNoTarget:
             inverse_kinematics(load_robot("ur5e"), np.eye(3))
         with pytest.raises(ShapeError):
             inverse_kinematics(load_robot("ur5e"), np.eye(4), near=np.zeros(5))
+
+    @pytest.mark.parametrize("solve", [inverse_kinematics, solve_numeric])
+    @pytest.mark.parametrize(
+        ("near", "error", "rule"),
+        [
+            (np.zeros((2, 6)), ShapeError, r"shape \(6,\)"),
+            (np.full(6, np.nan), SettingError, "finite"),
+            (np.full(6, np.inf), SettingError, "finite"),
+        ],
+    )
+    def test_where_the_arm_is_must_be_one_finite_pose(self, solve, near, error, rule):
+        robot, name = load_robot("ur5e"), "near" if solve is inverse_kinematics else "q0"
+        with pytest.raises(error, match=f"{name} must .*{rule}"):
+            solve(robot, forward_kinematics(robot, robot.home), **{name: near})
 
 
 def test_an_arm_of_no_family_is_told_which_condition_it_breaks():
