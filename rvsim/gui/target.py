@@ -375,6 +375,8 @@ class TargetControl(QObject):
         task, solver = self.task, self.solver
         self._take_robot(robot)
         self._label = ""
+        self._worker.cancel()
+        self.answer = self.nearest = None  # they speak of the other arm's joints
         # An arm that is being edited keeps what was chosen, where it still can.
         self.task = task if task in self.offer.tasks else self.task
         self.solver = solver if solver in self.offer.solvers and not self.offer.no_closed_form else self.solver

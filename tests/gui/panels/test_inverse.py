@@ -9,6 +9,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QAbstractButton, QCheckBox, QComboBox, QLabel, QTableView, QWidget
 
+from rvsim.files import load_robot
 from rvsim.gui.panels.inverse import InversePanel
 from rvsim.gui.panels.inverse_table import NAME_ROLE, SORT_ROLE
 from rvsim.gui.session import Session
@@ -303,3 +304,13 @@ def test_why_not_is_said_in_the_units_of_the_screen_also_when_these_change(qtbot
     said = [panel.findChild(QLabel, "why_not_sentence").text(), panel.why_not.left.text()]
     assert all(any(unit in text for unit in (" m", " rad")) for text in said)
     assert not any("°" in text or "mm" in text for text in said)
+
+
+def test_nothing_is_left_of_the_other_arm_while_nobody_watches(panel_of) -> None:
+    panel = panel_of("ur5e")
+    panel.control.set_target(Wish(down_at(2.0, 0.0, 0.2), "Far", ""))
+    panel.hide()
+    panel.session.use_robot(load_robot("rv-m1"))
+    assert panel.control.answer is panel.control.nearest is None
+    panel.show()
+    assert {len(branch.q) for branch in panel.control.answer.branches} == {5}
