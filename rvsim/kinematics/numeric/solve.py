@@ -17,6 +17,7 @@ from rvsim.kinematics.numeric.problem import Problem
 from rvsim.kinematics.numeric.result import ENDING, Kind, NumericResult, reason_in_words
 from rvsim.kinematics.numeric.target import target_poses
 from rvsim.robot import Robot
+from rvsim.spatial.arrays import FloatArray
 
 _DEFAULTS = SolverOptions()
 
