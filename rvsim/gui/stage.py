@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QEasingCurve, QObject, QTimer, QVariantAnimation
 
 from rvsim.experiment import Experiment
@@ -43,6 +44,7 @@ class Stage(QObject):
         self._path: tuple[Item, ...] = ()
         self._trail = np.empty((0, 3))
         self._trail_times = np.empty(0)
+        self._trail_up: NDArray[np.bool_] | None = None
         self._layers: dict[str, tuple[Item, ...]] = {}
         self._stale = QTimer(self, singleShot=True, interval=0)
         self._stale.timeout.connect(lambda: self._show_at(self._shown_q))
@@ -122,7 +124,8 @@ class Stage(QObject):
         if not self._preferences["show_trail"] or not len(self._trail):
             return ()
         done = int(np.searchsorted(self._trail_times, self._motion.player.time + 1e-9))
-        return trail_items(self._trail[:done], self.palette)
+        up = None if self._trail_up is None else self._trail_up[:done]
+        return trail_items(self._trail[:done], self.palette, pen_up=up)
 
     # --- what changed ----------------------------------------------------------------------------------------------
 
@@ -149,10 +152,12 @@ class Stage(QObject):
 
     def _on_tracking(self, tracking: Tracking | None) -> None:
         self._path = self._path_items(tracking)
+        self._trail_up = self._lifted()
         self.show()
 
     def _on_loaded(self) -> None:
         self._trail_times, self._trail = self._sampled_trail()
+        self._trail_up = self._lifted()
         self.show()
 
     def _on_preference(self, name: str) -> None:
@@ -166,7 +171,8 @@ class Stage(QObject):
         if tracking is None:
             return ()
         few = tracking.samples <= _MARKED_POINTS
-        return path_items(tracking.path.points, tracking.reached, np.empty((0, 3)), self.palette, marks=few)
+        path = tracking.path
+        return path_items(path.points, tracking.reached, np.empty((0, 3)), self.palette, marks=few, pen_up=path.pen_up)
 
     def _sampled_trail(self) -> tuple[FloatArray, FloatArray]:
         """Times and tool points of the whole motion along the path; the way to it draws nothing."""
@@ -176,3 +182,11 @@ class Stage(QObject):
         times = np.linspace(trajectory.path_start, trajectory.duration, _TRAIL_SAMPLES)
         points = forward_kinematics(self._session.robot, trajectory.q(times))[..., :3, 3]
         return times, points
+
+    def _lifted(self) -> NDArray[np.bool_] | None:
+        """Whether the pen is up at each moment of the trail; None for a path that is drawn all the way."""
+        tracking, trajectory = self._session.tracking, self._motion.player.trajectory
+        if tracking is None or tracking.path.pen_up is None or not isinstance(trajectory, Trajectory):
+            return None
+        towards = np.ceil([trajectory.path_index(t) - 1e-9 for t in self._trail_times]).astype(int)
+        return np.asarray(tracking.path.pen_up[towards])

@@ -95,10 +95,12 @@ class PathTracker(QObject):
     Signals:
         tracked(kind): "line" or "trajectory" has been tracked; the result is `session.tracking`.
         busy_changed(busy): the worker has begun, or ended.
+        closed(): the window closes: workers of others about paths end too.
     """
 
     tracked = Signal(str)
     busy_changed = Signal(bool)
+    closed = Signal()
 
     def __init__(self, session: Session, motion: MotionControl, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -149,6 +151,7 @@ class PathTracker(QObject):
         """End the worker, for the window closes."""
         self._pending = None
         self._worker.close()
+        self.closed.emit()
 
     def clear(self) -> None:
         """Take the tracked path and its motion out."""

@@ -123,17 +123,21 @@ def formula_unit(robot: Robot) -> float:
     return 1e-3 if robot.length_unit == "millimetre" else 1.0
 
 
+def _round(value: float) -> float:
+    """Two digits: a number to begin with."""
+    return float(f"{value:.2g}")
+
+
 def _default_formulas(robot: Robot, middle: FloatArray, half: float) -> FormulaShape:
     """Source 003's spiral for its arm; for others a straight way up and a turn of a spiral in their own reach."""
     unit = formula_unit(robot)
     if original_name(robot) == "rrrp":
         return FormulaShape(SPIRAL_STAGES, unit=unit)
-    (x, y, z), r = np.round(middle / unit, 3).tolist(), float(f"{0.25 * half / unit:.2g}")
-    rise = 0.0 if robot.dof < 3 or original_name(robot) == "planar" else 0.25 * r
-    low = f"{z:g} + {rise:g}*t/10" if rise else f"{z:g}"
+    (x, y, z), r = np.round(middle / unit, 3).tolist(), _round(0.25 * half / unit)
+    up = f"{z:g}" if original_name(robot) == "planar" else f"{z:g} + {_round(0.02 * r):g}*t"
     stages = (
-        FormulaStage(5.0, 51, f"{x:g}", f"{y + r:g} - {r:g}*(1 - t/5)", low),
-        FormulaStage(15.0, 100, f"{x:g} + {r:g}*sin(pi/5*t)*(-1)", f"{y:g} - {r:g}*cos(pi/5*t)", low),
+        FormulaStage(5.0, 51, f"{x:g}", f"{y:g} + {r / 5.0:g}*t", up),
+        FormulaStage(15.0, 100, f"{x:g} - {r:g}*sin(pi/5*t)", f"{y:g} - {r:g}*cos(pi/5*t)", up),
     )
     return FormulaShape(stages, unit=unit)
 
@@ -149,36 +153,39 @@ def _default_arc_through(_robot: Robot, middle: FloatArray, half: float) -> ArcT
 
 def _default_text(robot: Robot, _middle: FloatArray, half: float) -> TextShape:
     lift = 0.0 if original_name(robot) == "planar" else half / 12  # that arm cannot leave its plane
-    return TextShape(half / 3, lift=lift, spacing=half / 40)
+    return TextShape(_round(half / 3), lift=_round(lift), spacing=_round(half / 40))
 
 
 SHAPES: dict[str, ShapeKind] = {
     "circle": ShapeKind(
-        "Circle", False, lambda _r, _m, half: CircleShape(half / 3), lambda s: shapes.circle(s.radius, s.samples)
+        "Circle",
+        False,
+        lambda _r, _m, half: CircleShape(_round(half / 3)),
+        lambda s: shapes.circle(s.radius, s.samples),
     ),
     "arc": ShapeKind(
         "Arc",
         False,
-        lambda _r, _m, half: ArcShape(half / 3),
+        lambda _r, _m, half: ArcShape(_round(half / 3)),
         lambda s: shapes.arc(s.radius, s.begin, s.sweep, s.samples),
     ),
     "arc-through": ShapeKind("Arc through three points", True, _default_arc_through, _through),
     "ellipse-shape": ShapeKind(
         "Ellipse",
         False,
-        lambda _r, _m, half: EllipseShape(half / 3, half / 5),
+        lambda _r, _m, half: EllipseShape(_round(half / 3), _round(half / 5)),
         lambda s: shapes.ellipse(s.a, s.b, s.samples),
     ),
     "polygon": ShapeKind(
         "Polygon",
         False,
-        lambda _r, _m, half: PolygonShape(half / 3),
+        lambda _r, _m, half: PolygonShape(_round(half / 3)),
         lambda s: shapes.regular_polygon(s.corners, s.radius, s.samples),
     ),
     "star": ShapeKind(
         "Star",
         False,
-        lambda _r, _m, half: StarShape(half / 3),
+        lambda _r, _m, half: StarShape(_round(half / 3)),
         lambda s: shapes.five_pointed_star(s.radius, s.samples),
     ),
     "text": ShapeKind("Text", False, _default_text, _text),
@@ -203,8 +210,8 @@ def placement_of(robot: Robot, task: TrajectoryTask) -> Placement:
         return task.placement
     if is_shape(task) and not SHAPES[task.name].placed:
         middle, _ = _first_line(robot)
-        # Letters stand so that somebody behind the arm can read them.
-        yaw = math.atan2(middle[1], middle[0]) - math.pi / 2 if task.name == "text" else 0.0
+        # Letters stand so that somebody who faces the arm can read them.
+        yaw = math.atan2(middle[1], middle[0]) + math.pi / 2 if task.name == "text" else 0.0
         return Placement(middle, np.array([0.0, 0.0, yaw]))
     return Placement(_unplaced(robot, task, None).middle, np.zeros(3))
 
@@ -260,3 +267,13 @@ def _first_line(robot: Robot) -> tuple[FloatArray, float]:
     """The middle (3,) and half the length of the arm's first line [m]."""
     preset = line_presets(robot)[0]
     return 0.5 * (preset.start + preset.end), 0.5 * float(np.linalg.norm(preset.end - preset.start))
+
+
+def placed_task(robot: Robot, task: TrajectoryTask, placement: Placement) -> TrajectoryTask:
+    """The task with its path there; points that were typed are moved themselves, so that their table stays true."""
+    shape = shape_of(robot, task) if is_shape(task) else None
+    if not isinstance(shape, PointsShape | ArcThroughShape):
+        return replace(task, placement=placement)
+    R, middle = rotation_from_rpy(placement.rpy), placement_of(robot, task).center
+    points = placement.center + placement.scale * (shape.points - middle) @ R.T
+    return replace(task, shape=replace(shape, points=points), placement=None)

@@ -10,13 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rvsim.errors import ShapeError
-from rvsim.kinematics import forward_kinematics
 from rvsim.motion.path import Path
 from rvsim.motion.turns import existing
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
-
-_SHARES = np.array([0.25, 0.5, 0.75])
 
 UnreachedKind = Literal["reach", "orientation", "limits"]
 
@@ -101,24 +98,10 @@ class Tracking:
         deviation = self.deviation[self.reached]
         return float(deviation.max()) if deviation.size else None
 
-    @cached_property
-    def way_deviation(self) -> float | None:
-        """How far the tool leaves the straight way between neighbouring points when the joints move evenly [m].
-
-        The largest of a few places on each way between two reached points that is no jump; None when there is no such
-        way. Denser points make it smaller.
-        """
-        ways = np.flatnonzero(self.reached[:-1] & self.reached[1:])
-        ways = ways[~np.isin(ways + 1, self.jumps)]
-        if not len(ways):
-            return None
-        share = _SHARES[:, None, None]
-        q = (1.0 - share) * self.q[ways] + share * self.q[ways + 1]
-        starts, steps = self.path.points[ways], self.path.points[ways + 1] - self.path.points[ways]
-        offsets = forward_kinematics(self.robot, q)[..., :3, 3] - starts
-        lengths = np.maximum(np.sum(steps**2, axis=-1), 1e-30)
-        along = np.clip(np.sum(offsets * steps, axis=-1) / lengths, 0.0, 1.0)
-        return float(np.linalg.norm(offsets - along[..., None] * steps, axis=-1).max())
+    @property
+    def offsets(self) -> FloatArray:
+        """(k, 3) from where the tool should be to where it is at the reached points [m], base axes."""
+        return np.asarray((self.actual - self.path.points)[self.reached])
 
     @property
     def seconds_per_point(self) -> float:

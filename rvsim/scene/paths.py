@@ -20,38 +20,53 @@ def path_items(
     *,
     key: str = "path",
     marks: bool | None = None,
+    pen_up: ArrayLike | None = None,
 ) -> tuple[Item, ...]:
     """The desired path (m, 3) with its unreached stretches, and the actual one (k, 3) on top [m].
 
     Args:
         reached: (m,) which of the desired points the arm can reach.
         marks: a dot at each desired point; None shows them up to 60 points.
+        pen_up: (m,) whether the way to each point is made with the pen lifted; None where it never is.
     """
     points, mask = np.asarray(desired, dtype=np.float64).reshape(-1, 3), np.asarray(reached, dtype=bool)
     items: list[Item] = []
-    for number, (is_reached, stretch) in enumerate(_stretches(points, mask)):
+    up = np.zeros(len(points), dtype=bool) if pen_up is None else np.asarray(pen_up, dtype=bool)
+    for number, (is_reached, is_up, stretch) in enumerate(_stretches(points, mask, up)):
         color = palette.desired if is_reached else palette.unreached
-        items.append(Polyline(f"{key}.desired{number}", stretch, color, 2.0, dashed=not is_reached))
+        dashed, width = is_up or not is_reached, 1.0 if is_up else 2.0
+        items.append(Polyline(f"{key}.desired{number}", stretch, color, width, dashed=dashed))
     if marks if marks is not None else len(points) <= 60:
         items.append(Dots(f"{key}.reached", points[mask], palette.desired, 5.0))
     items += _crosses(points[~mask], palette, key)
     return (*items, *trail_items(actual, palette, key=f"{key}.actual"))
 
 
-def trail_items(points: ArrayLike, palette: ScenePalette, *, key: str = "trail") -> tuple[Item, ...]:
-    """Where the tool was: points (k, 3) [m]; nothing for fewer than two."""
+def trail_items(
+    points: ArrayLike, palette: ScenePalette, *, key: str = "trail", pen_up: ArrayLike | None = None
+) -> tuple[Item, ...]:
+    """Where the tool was: points (k, 3) [m]; nothing for fewer than two, and where the pen was up (k,)."""
     line = np.asarray(points, dtype=np.float64).reshape(-1, 3)
-    return (Polyline(key, line, palette.actual, 2.2),) if len(line) > 1 else ()
+    if len(line) < 2:
+        return ()
+    if pen_up is None:
+        return (Polyline(key, line, palette.actual, 2.2),)
+    down = ~np.asarray(pen_up, dtype=bool)
+    pieces = [piece for drawn, _, piece in _stretches(line, down, ~down) if drawn]
+    return tuple(Polyline(f"{key}{number}", piece, palette.actual, 2.2) for number, piece in enumerate(pieces))
 
 
-def _stretches(points: FloatArray, reached: BoolArray) -> list[tuple[bool, FloatArray]]:
-    """The path cut into reached and unreached stretches; a piece with one unreached end is unreached."""
+def _stretches(points: FloatArray, reached: BoolArray, up: BoolArray) -> list[tuple[bool, bool, FloatArray]]:
+    """The path cut where it begins or ends to be reached, or the pen to be up; a piece that is half reached is not."""
     if len(points) < 2:
         return []
-    whole = reached[:-1] & reached[1:]
-    cuts = np.flatnonzero(whole[1:] != whole[:-1]) + 1
+    whole, lifted = reached[:-1] & reached[1:], up[1:]
+    cuts = np.flatnonzero((whole[1:] != whole[:-1]) | (lifted[1:] != lifted[:-1])) + 1
     starts, ends = [0, *cuts.tolist()], [*cuts.tolist(), len(whole)]
-    return [(bool(whole[start]), points[start : end + 1]) for start, end in zip(starts, ends, strict=True)]
+    return [
+        (bool(whole[start]), bool(lifted[start]), points[start : end + 1])
+        for start, end in zip(starts, ends, strict=True)
+    ]
 
 
 def _crosses(points: FloatArray, palette: ScenePalette, key: str) -> list[Item]:

@@ -226,12 +226,3 @@ def test_a_free_pitch_glides_along_a_finely_sampled_path_longer_than_a_block(rv_
     assert not tracking.jumps
     pitch = np.degrees(tracking.q[:, 1:4].sum(axis=1))
     assert np.abs(np.diff(pitch)).max() < 10.0
-
-
-def test_the_tool_leaves_a_line_less_between_denser_points() -> None:
-    robot = load_robot("rv-m1")
-    start, end = np.array([0.3, -0.18, 0.11]), np.array([0.3, 0.18, 0.21])
-    leaves = [track(robot, line_path(start, end, samples)).way_deviation for samples in (6, 11, 21, 41)]
-    assert all(leave is not None for leave in leaves)
-    # Halving the step quarters the arc's height over its chord.
-    np.testing.assert_allclose(np.array(leaves[:-1]) / np.array(leaves[1:]), 4.0, rtol=0.15)

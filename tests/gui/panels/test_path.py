@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -16,10 +17,12 @@ from rvsim.lab.lines import line_presets
 
 
 @pytest.fixture
-def panel(session_with, preferences, shown) -> PathPanel:
+def panel(session_with, preferences, shown) -> Iterator[PathPanel]:
     session = session_with("rv-m1")
     motion = MotionControl(session, preferences, session)
-    return shown(PathPanel(session, preferences, PathTracker(session, motion, session)))
+    tracker = PathTracker(session, motion, session)
+    yield shown(PathPanel(session, preferences, tracker))
+    tracker.close()
 
 
 def choose(panel: PathPanel, name: str, data: object) -> None:

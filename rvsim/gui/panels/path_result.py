@@ -1,0 +1,144 @@
+"""What came of tracking a path: how many points, how exact, how fast, and what could be done about missed ones."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QGroupBox, QHBoxLayout, QLabel, QProgressBar, QPushButton
+
+from rvsim.gui.panels.path_points import PathPointsDialog
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import shown_units
+from rvsim.gui.session import Session
+from rvsim.gui.theme import set_role
+from rvsim.gui.tracker import PathTracker, Repair
+from rvsim.gui.widgets import button, form
+from rvsim.lab.sentences import length_error, tracking_sentence
+from rvsim.motion import Tracking
+from rvsim.motion.between import way_deviation
+
+
+class ResultSection(QGroupBox):
+    """What came of it: how many points, how exact, how fast; and what could be done about missed ones."""
+
+    def __init__(self, session: Session, preferences: Preferences, tracker: PathTracker) -> None:
+        super().__init__("Result")
+        self._session, self._preferences, self._tracker = session, preferences, tracker
+        self._table: PathPointsDialog | None = None
+        self.reached, self.rms, self.largest, self.between, self.time = (QLabel() for _ in range(5))
+        self.between.setObjectName("between_label")
+        self.between.setToolTip(
+            "How far the tool leaves the straight way between neighbouring points: the joints pass the points exactly "
+            "and follow a spline between them. More points make it less"
+        )
+        self.rms.setObjectName("rms_label")
+        self.reached.setObjectName("reached_label")
+        self.sentence = QLabel(wordWrap=True)
+        self.sentence.setObjectName("tracking_sentence")
+        self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.busy = QProgressBar()
+        self.busy.setObjectName("tracking_progress")
+        self.busy.setRange(0, 0)
+        self.busy.setTextVisible(False)
+        self.busy.setFixedHeight(8)
+        self.cancel = button("cancel_tracking_button", "Cancel", "Give up working this path out", tracker.cancel)
+        tip = "Every point of the path with what came of it; a click moves the arm there"
+        self.points = button("path_points_button", "Points…", tip, self._show_points)
+        self._repairs = QHBoxLayout()
+        self._repairs.setSpacing(6)
+        rows = form()
+        reached = QHBoxLayout()
+        reached.addWidget(self.reached, 1)
+        reached.addWidget(self.points)
+        rows.addRow("Reached", reached)
+        rows.addRow("RMS", self.rms)
+        rows.addRow("Largest", self.largest)
+        rows.addRow("Between", self.between)
+        rows.addRow("Solved in", self.time)
+        waiting = QHBoxLayout()
+        waiting.addWidget(self.busy, 1)
+        waiting.addWidget(self.cancel)
+        rows.addRow(waiting)
+        rows.addRow(self.sentence)
+        rows.addRow(self._repairs)
+        self.setLayout(rows)
+        self.show_tracking(None)
+        self.show_busy(False)
+        tracker.busy_changed.connect(self.show_busy)
+        self._wear_units("angle_unit")
+        preferences.changed.connect(self._wear_units)
+
+    def _wear_units(self, name: str) -> None:
+        """Say the result in the preferred units, now and when the next path is tracked."""
+        if name in ("angle_unit", "length_unit"):
+            self._tracker.units = shown_units(self._preferences)
+            self.show_tracking(self._session.tracking)
+
+    def _show_points(self) -> None:
+        """Open the table of points; it stays true while it is open."""
+        if self._table is None:
+            self._table = PathPointsDialog(self._session, self._preferences, self)
+        self._table.show()
+        self._table.raise_()
+
+    def show_busy(self, busy: bool) -> None:
+        """Show that a long path is being worked out; the old result stays in sight."""
+        self.busy.setVisible(busy)
+        self.cancel.setVisible(busy)
+
+    def show_tracking(self, tracking: Tracking | None) -> None:
+        """Show the result, or what to do to get one."""
+        while self._repairs.count():
+            item = self._repairs.takeAt(0)
+            if item is not None and (old := item.widget()) is not None:
+                old.deleteLater()
+        if tracking is None:
+            for label in (self.reached, self.rms, self.largest, self.between, self.time):
+                label.setText("\u2013")
+            for label in (self.rms, self.largest):
+                label.setToolTip("")
+            self.points.setEnabled(False)
+            self.sentence.setText("Nothing tracked yet. Track line moves the tool from start to end.")
+            set_role(self.sentence, level="")
+            return
+        self._show_numbers(tracking)
+        self.points.setEnabled(True)
+        self.sentence.setText(tracking_sentence(tracking, self._tracker.units))
+        set_role(self.sentence, level="good" if tracking.complete else "warning")
+        for repair in self._tracker.repairs():
+            self._repairs.addWidget(self._repair_button(repair))
+
+    def _deviation(self, value: float | None, tracking: Tracking) -> str:
+        return "\u2013" if value is None else length_error(tracking.robot, value, self._tracker.units)
+
+    def _show_numbers(self, tracking: Tracking) -> None:
+        self.reached.setText(f"{tracking.reached_count} of {tracking.samples} points")
+        of_reached = " (reached points)" if 0 < tracking.reached_count < tracking.samples else " (at the points)"
+        of_reached = of_reached if tracking.reached_count else ""
+        self.rms.setText(self._deviation(tracking.rms, tracking) + of_reached)
+        self.largest.setText(self._deviation(tracking.max_deviation, tracking) + of_reached)
+        trajectory = self._tracker.trajectory
+        between = None if trajectory is None else way_deviation(trajectory, tracking)
+        self.between.setText(self._deviation(between, tracking))
+        for label in (self.rms, self.largest):
+            label.setToolTip(self._each_axis(tracking))
+        milliseconds = tracking.solve_seconds * 1e3
+        self.time.setText(f"{milliseconds:.2f} ms ({tracking.seconds_per_point * 1e6:.0f} µs a point)")
+
+    def _each_axis(self, tracking: Tracking) -> str:
+        """RMS, mean and largest deviation along each axis, as a table for a tooltip."""
+        offsets = tracking.offsets
+        if not len(offsets):
+            return ""
+        rows: list[tuple[str, ...]] = [("", "RMS", "mean", "largest")]
+        for name, values in (*zip("xyz", offsets.T, strict=True), ("all", tracking.deviation[tracking.reached])):
+            numbers = (np.sqrt(np.mean(values**2)), np.mean(values), np.max(np.abs(values)))
+            rows.append((name, *(self._deviation(float(number), tracking) for number in numbers)))
+        cells = ("".join(f"<td align='right'>&nbsp;{cell}</td>" for cell in row) for row in rows)
+        return "Where the tool is less where it should be, at the reached points<table><tr>{}</tr></table>".format(
+            "</tr><tr>".join(cells)
+        )
+
+    def _repair_button(self, repair: Repair) -> QPushButton:
+        name = "repair_" + repair.title.lower().replace(" ", "_")
+        return button(name, repair.title, repair.tip, lambda: self._tracker.apply(repair))
