@@ -1,114 +1,87 @@
-"""What the sources say of their own examples: how much of a path is drawn, and which numbers come out."""
+"""What sources 001 to 004 say of their own examples: how much of a path is drawn, and which numbers come out."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from itertools import product
 
 import numpy as np
 
 from rvsim.dynamics import gravity_torques
-from rvsim.experiment import PathOrientation
 from rvsim.files import load_robot
 from rvsim.kinematics import forward_kinematics, jacobian
 from rvsim.lab.drawings import ELLIPSE_SAMPLES, ellipse, spiral
-from rvsim.lab.lines import line_presets
-from rvsim.lab.named_paths import line_of, named_path
-from rvsim.lab.sources.figures import Numbers, as_numbers
+from rvsim.lab.named_paths import named_path
+from rvsim.lab.sources.arms import degrees
+from rvsim.lab.sources.claim import Claim, drawn_by_name
+from rvsim.lab.sources.figures import as_numbers, pose_text
 from rvsim.lab.sources.source_002_errata import spacing, tilt_range
 from rvsim.lab.sources.source_003 import program_place, roll
 from rvsim.lab.sources.source_004_motion import quintic_coefficients
-from rvsim.motion import Path, track
-from rvsim.motion.laws import quintic_between
-from rvsim.robot import Robot
+from rvsim.lab.tables import shown_length
+from rvsim.motion import track
+from rvsim.motion.laws import cubic, quintic_between
 from rvsim.spatial import rotation_error_angle
 from rvsim.units import degrees_from_radians, millimetres_from_metres, radians_from_degrees
 
-
-class Claim(NamedTuple):
-    """A row of the reproduction: see `Reproduction`."""
-
-    source: str
-    item: str
-    printed: Numbers | None
-    formula: Numbers | None
-    ours: Numbers
-    verdict: str
-
-
-def claims() -> tuple[Claim, ...]:
-    """All of them, worked out now; about a second."""
-    return (*_source_000(), *_source_002(), *_source_003(), *_source_004())
+UPRIGHT_001 = degrees(0.0, 90.0, 0.0, 0.0, 0.0, 0.0)
+GRAVITY_002 = ((0.0,) * 6, (0.0, -60.0, 90.0, -120.0, -90.0, 30.0))  # [deg]
+STRETCHED_41 = degrees(30.0, 0.0)
+# The arms of source 004, section 2.1: the figure, and the arm's name.
+TEXTBOOK_ARMS = (
+    ("2.3", "articulated"),
+    ("2.6", "spherical"),
+    ("2.7", "scara"),
+    ("2.9", "cylindrical"),
+    ("2.12", "cartesian"),
+)
+_QUARTERS = np.pi / 2 * np.array([-1.0, 0.0, 1.0])
 
 
-# --- what can be drawn -----------------------------------------------------------------------------------------------
+def other_claims() -> tuple[Callable[[], tuple[Claim, ...]], ...]:
+    """Makers of the rows, each a small piece of the work."""
+    return (_source_001, _ellipse_points, _ellipse_drawn, _gravity, _source_003, _textbook_arms, _source_004)
 
 
-def _drawn(source: str, item: str, robot: Robot, path: Path, *, ignore_limits: bool = False) -> Claim:
-    """The source draws every point; how many the arm can draw."""
-    wanted = path.samples
-    reached = track(robot, path, ignore_limits=ignore_limits).reached_count
-    verdict = "confirmed" if reached == wanted else "partly reached" if reached else "cannot be reached"
-    return Claim(source, f"{item}, points reached of {wanted}", float(wanted), None, float(reached), verdict)
+def _source_001() -> tuple[Claim, ...]:
+    robot = load_robot("rv-1a")
+    place = as_numbers(millimetres_from_metres(forward_kinematics(robot, UPRIGHT_001)[:3, 3]))
+    item = f"Table 1: tool's place [mm] at {pose_text(robot, UPRIGHT_001)}"
+    return (Claim("001-table", "001", item, None, None, place, "computed"),)
 
 
-def _named(source: str, item: str, arm: str, name: str, orientation: PathOrientation | None = None) -> Claim:
-    robot = load_robot(arm)
-    return _drawn(source, item, robot, named_path(name, robot, orientation=orientation))
-
-
-def _source_000() -> tuple[Claim, ...]:
-    robot = load_robot("rv-m1")
-    line = line_of(robot, next(p for p in line_presets(robot) if p.name == "source-000").task())
-    return (
-        _drawn("000", "Programs 7 and 8: the line, without limits", robot, line, ignore_limits=True),
-        _drawn("000", "Programs 7 and 8: the line, within the source's limits", robot, line),
-        _named("000", "Program 9: the letter as printed, in decimetres", "rv-m1", "letter-raw"),
-        _named("000", "Program 16: the letter divided by 40, at a height of 300 mm", "rv-m1", "letter-scaled"),
-        _elbow(robot, "Program 5", 90.0),
-        _elbow(robot, "Program 6", 60.0),
-        _stretched(robot),
-    )
-
-
-def _elbow(robot: Robot, program: str, printed: float) -> Claim:
-    lower, upper = degrees_from_radians(robot.limits[2])
-    nearest = float(np.clip(printed, lower, upper))
-    return Claim(
-        "000", f"{program}: elbow θ₃, nearest within the limits [deg]", printed, None, nearest, "outside limits"
-    )
-
-
-def _stretched(robot: Robot) -> Claim:
-    """(30): θ3 = 0 and θ4 = π/2 of the table."""
-    q = radians_from_degrees([30.0, 40.0, 0.0, 0.0, 0.0])
-    sigma = as_numbers(np.linalg.svd(jacobian(robot, q)[:3, :4], compute_uv=False)[-1])
-    return Claim("000", "(30): smallest singular value of Ĵ at θ₃ = 0, θ₄ = 90°", 0.0, 0.0, sigma, "confirmed")
-
-
-# --- numbers ---------------------------------------------------------------------------------------------------------
-
-
-def _source_002() -> tuple[Claim, ...]:
+def _ellipse_points() -> tuple[Claim, ...]:
     robot = load_robot("ur5e")
     first = as_numbers(millimetres_from_metres(ellipse()[1, :2]))
     gaps = as_numbers(millimetres_from_metres(spacing(robot, robot.home)))
-    tilts = as_numbers(degrees_from_radians(tilt_range(robot, robot.home)))
+    own, count = "002-code-1", float(len(ellipse()))
     return (
-        Claim("002", "Code 1: the number of points", 184.0, float(ELLIPSE_SAMPLES), float(len(ellipse())), "confirmed"),
-        Claim("002", "Code 1: the second point, x and y [mm]", (134.9794, 100.8582), first, first, "confirmed"),
-        Claim("002", "Code 1: least and largest distance of neighbours [mm]", 1.2, gaps, gaps, "contradiction"),
-        Claim("002", "Code 2: tool axis to the desired one, with right formulas [deg]", 0.0, tilts, 0.0, "ignored"),
-        _named("002", "The ellipse with the desired rotation", "ur5e", "ellipse"),
-        _named("002", "The ellipse with any rotation", "ur5e", "ellipse", "free"),
-        *(_gravity(pose) for pose in ((0.0,) * 6, (0.0, -60.0, 90.0, -120.0, -90.0, 30.0))),
+        Claim(own, "002", "Code 1: the number of points", 184.0, float(ELLIPSE_SAMPLES), count, "confirmed"),
+        Claim(own, "002", "Code 1: the second point, x and y [mm]", (134.9794, 100.8582), first, first, "confirmed"),
+        Claim(own, "002", "Code 1: least and largest distance of neighbours [mm]", 1.2, gaps, gaps, "contradiction"),
     )
 
 
-def _gravity(pose_deg: tuple[float, ...]) -> Claim:
+def _ellipse_drawn() -> tuple[Claim, ...]:
+    robot = load_robot("ur5e")
+    tilts = as_numbers(degrees_from_radians(tilt_range(robot, robot.home)))
+    item = "Code 2: tool axis to the desired one, with right formulas [deg]"
+    return (
+        Claim("002-ik", "002", item, 0.0, tilts, 0.0, "ignored"),
+        drawn_by_name("002-rotation", "The ellipse with the desired rotation", "ur5e", "ellipse"),
+        drawn_by_name("002-any", "The ellipse with any rotation", "ur5e", "ellipse", "free"),
+    )
+
+
+def _gravity() -> tuple[Claim, ...]:
+    return tuple(_gravity_at(f"002-gravity-{number}", pose) for number, pose in enumerate(GRAVITY_002, start=1))
+
+
+def _gravity_at(key: str, pose_deg: tuple[float, ...]) -> Claim:
     torques = as_numbers(gravity_torques(load_robot("ur5e"), radians_from_degrees(pose_deg)))
     pose = ", ".join(f"{angle:g}" for angle in pose_deg).replace("-", "\u2212")
     item = f"Table: torques that hold the arm by its masses [N m] at ({pose})°"
-    return Claim("002", item, None, None, torques, "computed")
+    return Claim(key, "002", item, None, None, torques, "computed")
 
 
 def _source_003() -> tuple[Claim, ...]:
@@ -120,15 +93,43 @@ def _source_003() -> tuple[Claim, ...]:
     turned = degrees_from_radians(float(np.max(rotation_error_angle(R_wrong, R))))
     places = np.array([program_place(robot, q, float(robot.dh[1, 2])) for q in tracking.q])
     gap = as_numbers(np.abs(places - spiral()).max())
+    error = "θ₃ in the program: largest error of the tool's orientation [deg]"
     return (
-        _named("003", "The spiral", "rrrp", "spiral"),
-        Claim("003", "AT with l₅: largest distance from the path [unit]", 0.0, gap, 0.0, "confirmed"),
-        Claim("003", "θ₃ in the program: largest error of the tool's orientation [deg]", 0.0, turned, 0.0, "misprint"),
+        drawn_by_name("003-spiral", "The spiral", "rrrp", "spiral"),
+        Claim("003-spiral", "003", "AT with l₅: largest distance from the path [unit]", 0.0, gap, 0.0, "confirmed"),
+        Claim("003-t3", "003", error, 0.0, turned, 0.0, "misprint"),
     )
 
 
+def _textbook_arms() -> tuple[Claim, ...]:
+    return tuple(_farthest(figure, arm) for figure, arm in TEXTBOOK_ARMS)
+
+
+def _farthest(figure: str, arm: str) -> Claim:
+    """These arms reach farthest with every joint at a stop or at a quarter turn."""
+    robot = load_robot(arm)
+    values = [
+        np.unique(np.clip(np.concatenate([limits, _QUARTERS]), *limits)) if revolute else limits
+        for limits, revolute in zip(robot.limits, robot.is_revolute, strict=True)
+    ]
+    places = forward_kinematics(robot, np.array(list(product(*values))))[:, :3, 3]
+    farthest = as_numbers(shown_length(robot, np.hypot(places[:, 0], places[:, 1]).max()))
+    item = f"Figure {figure}: farthest from the base axis, within the limits [mm]"
+    return Claim(f"004-{figure}", "004", item, None, None, farthest, "computed")
+
+
 def _source_004() -> tuple[Claim, ...]:
-    printed = quintic_coefficients(0.0, 40.0, 0.0, 2.0, as_printed=True)
-    ours = quintic_between(0.0, 2.0, 0.0, 40.0).coefficients[0, :, 0]
-    item = "(5.22) with t₀ = 0: a₀ to a₅ from 0 to 40° in 2 s [deg, s]"
-    return (Claim("004", item, None, as_numbers(printed), as_numbers(ours), "confirmed"),)
+    planar, al5b = load_robot("planar"), load_robot("al5b")
+    sigma = as_numbers(np.linalg.svd(jacobian(planar, STRETCHED_41)[:2], compute_uv=False)[-1])
+    place = as_numbers(millimetres_from_metres(forward_kinematics(al5b, np.zeros(5))[:3, 3]))
+    start = as_numbers(cubic(0.0, 2.0, 0.0, 40.0).at(0.0).qdd[0])
+    printed = as_numbers(quintic_coefficients(0.0, 40.0, 0.0, 2.0, as_printed=True))
+    ours = as_numbers(quintic_between(0.0, 2.0, 0.0, 40.0).coefficients[0, :, 0])
+    quintic = "(5.22) with t₀ = 0: a₀ to a₅ from 0 to 40° in 2 s [deg, s]"
+    jump = "Section 5.1: acceleration at the start of a cubic from 0 to 40° in 2 s [deg/s²]"
+    return (
+        Claim("004-3.1", "004", "Table 3.1: tool's place [mm] with all joints 0", None, None, place, "computed"),
+        Claim("004-4.1", "004", "Figure 4.1: smallest singular value, stretched out", 0.0, None, sigma, "confirmed"),
+        Claim("004-cubic", "004", jump, None, None, start, "computed"),
+        Claim("004-quintic", "004", quintic, None, printed, ours, "confirmed"),
+    )

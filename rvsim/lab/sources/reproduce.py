@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from rvsim.files import load_robot
-from rvsim.lab.sources.claims import claims
+from rvsim.lab.sources.claim import Claim
+from rvsim.lab.sources.claims import other_claims
+from rvsim.lab.sources.claims_000 import claims_000
 from rvsim.lab.sources.collection import errata
 from rvsim.lab.sources.erratum import Comparison, Erratum
+from rvsim.lab.sources.experiments import keys_in_order
 from rvsim.lab.sources.figures import Numbers, as_numbers, pose_text, shown_value, unit_of
 from rvsim.robot.arrays import FloatArray
 
@@ -73,11 +77,45 @@ _WITHOUT_POSE = ("002-target", "002-rms")
 _AMONG_CLAIMS = ("002-spacing", "002-ik")
 
 
+class KeyedReproduction(NamedTuple):
+    """A row, and the key of the experiment or erratum that it belongs to."""
+
+    key: str
+    row: Reproduction
+
+
 def reproduce() -> tuple[Reproduction, ...]:
-    """Every erratum with numbers, at its own pose, and what the sources' examples come to; source by source."""
-    rows = [_of_erratum(entry) for entry in errata() if _has_numbers(entry)]
-    rows += [Reproduction(*claim) for claim in claims()]
-    return tuple(sorted(rows, key=lambda row: row.source))
+    """Every number, worked out now (about a second): source by source, in the order of `experiments()`."""
+    return tuple(keyed.row for keyed in reproduce_by_key())
+
+
+def reproduce_by_key(tell: Callable[[float], bool] = lambda _share: True) -> tuple[KeyedReproduction, ...]:
+    """The same with keys.
+
+    Args:
+        tell: is told which share is done; if it says no, the work ends with what there is.
+    """
+    makers = _makers()
+    rows: list[KeyedReproduction] = []
+    for done, make in enumerate(makers, start=1):
+        rows += make()
+        if not tell(done / len(makers)):
+            break
+    place = {key: number for number, key in enumerate(keys_in_order())}
+    return tuple(sorted(rows, key=lambda keyed: place[keyed.key]))
+
+
+def _makers() -> list[Callable[[], list[KeyedReproduction]]]:
+    of_errata = [partial(_keyed_erratum, entry) for entry in errata() if _has_numbers(entry)]
+    return [*of_errata, *(partial(_keyed_claims, make) for make in (*claims_000(), *other_claims()))]
+
+
+def _keyed_erratum(entry: Erratum) -> list[KeyedReproduction]:
+    return [KeyedReproduction(entry.key, _of_erratum(entry))]
+
+
+def _keyed_claims(make: Callable[[], tuple[Claim, ...]]) -> list[KeyedReproduction]:
+    return [KeyedReproduction(claim.key, Reproduction(*claim[1:])) for claim in make()]
 
 
 def _has_numbers(entry: Erratum) -> bool:
