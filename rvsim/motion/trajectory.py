@@ -269,7 +269,7 @@ def _with_law(robot: Robot, stretch: Stretch, law: Law) -> Stretch:
     limits = accelerations(robot)
     if not moving.any() or not np.isfinite(limits[moving]).all():
         return stretch
-    return replace(stretch, law=quickest_along(stretch.way, _speeds(robot), limits).in_one_second())
+    return replace(stretch, law=quickest_along(stretch.way, speeds(robot), limits).in_one_second())
 
 
 def _knots(tracking: Tracking, first: int, last: int) -> FloatArray:
@@ -287,7 +287,7 @@ def _knots(tracking: Tracking, first: int, last: int) -> FloatArray:
 def _shortest_seconds(robot: Robot, stretch: Stretch) -> float:
     """The least duration of a stretch (given with one of 1 s) that keeps speeds and accelerations of the joints."""
     moments = stretch.at(_telling_times(stretch))
-    speed = float(np.max(np.abs(moments.qd) / _speeds(robot)))
+    speed = float(np.max(np.abs(moments.qd) / speeds(robot)))
     acceleration = float(np.max(np.abs(moments.qdd) / accelerations(robot)))
     return _BETWEEN_SAMPLES * max(speed, math.sqrt(acceleration))
 
@@ -307,7 +307,7 @@ def accelerations(robot: Robot) -> FloatArray:
     return np.array([math.inf if limit is None else limit.value for limit in limits])
 
 
-def _speeds(robot: Robot) -> FloatArray:
+def speeds(robot: Robot) -> FloatArray:
     """(n,) max_speed of each joint where it is known, else an easy pace for the eye [rad/s, m/s]."""
     easy = np.where(robot.is_revolute, _EASY_TURN, _EASY_SIZES * robot.size)
     return np.array(
