@@ -8,10 +8,21 @@ from collections.abc import Sequence
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent, QWheelEvent
+from PySide6.QtGui import (
+    QColor,
+    QContextMenuEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+    QResizeEvent,
+    QWheelEvent,
+)
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rvsim.gui.plots.catalogue import Band, Drawing, Line
+from rvsim.gui.plots.saving import plot_menu
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.theme import THEMES, Theme
 from rvsim.robot.arrays import FloatArray
@@ -164,6 +175,10 @@ class TimePlot(QWidget):
         """Drag through the moments."""
         if event.buttons() & Qt.MouseButton.LeftButton:
             self._pick(event)
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """Save or copy it."""
+        plot_menu(self).popup(event.globalPos())
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """What is around may scroll."""

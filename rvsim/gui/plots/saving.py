@@ -1,0 +1,109 @@
+"""A plot as a picture: PNG at twice the size of the screen, SVG as lines and letters, or on the clipboard."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSize, Qt
+from PySide6.QtGui import QGuiApplication, QImage, QImageWriter, QPainter
+from PySide6.QtSvg import QSvgGenerator
+from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox, QWidget
+
+from rvsim.errors import FileWriteError
+from rvsim.files.atomic import write_atomically
+
+if TYPE_CHECKING:
+    from rvsim.gui.plots.time_plot import TimePlot
+
+_FINER = 2  # pixels of a PNG for one of the screen
+_KINDS = "Picture (*.png);;Drawing (*.svg)"
+
+
+def plot_image(plot: TimePlot) -> QImage:
+    """The plot without its cursor, `_FINER` times as fine as on the screen."""
+    image = QImage(plot.size() * _FINER, QImage.Format.Format_RGB32)
+    image.fill(Qt.GlobalColor.white)
+    with QPainter(image) as painter:
+        painter.scale(_FINER, _FINER)
+        _draw(plot, painter)
+    return image
+
+
+def save_plot(plot: TimePlot, path: str | Path) -> None:
+    """Write it as .png or .svg, whole or not at all.
+
+    Raises:
+        FileWriteError: another ending, or the file cannot be written.
+    """
+    file = Path(path)
+    makers: dict[str, Callable[[TimePlot], bytes]] = {".png": _png, ".svg": _svg}
+    if file.suffix.lower() not in makers:
+        raise FileWriteError(file, f"“{file.suffix}” is no ending of a plot. Known: {', '.join(makers)}")
+    try:
+        write_atomically(file, makers[file.suffix.lower()](plot))
+    except OSError as problem:
+        raise FileWriteError(file, (problem.strerror or str(problem)).lower()) from None
+
+
+def copy_plot(plot: TimePlot) -> None:
+    """Put it on the clipboard as a picture."""
+    QGuiApplication.clipboard().setImage(plot_image(plot))
+
+
+def plot_menu(plot: TimePlot) -> QMenu:
+    """What can be done with a plot; it goes when it is closed."""
+    menu = QMenu(plot)
+    menu.setObjectName("plot_menu")
+    menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    menu.addAction("Save as …", lambda: ask_save_plot(plot)).setObjectName("plot_save")
+    menu.addAction("Copy", lambda: copy_plot(plot)).setObjectName("plot_copy")
+    return menu
+
+
+def ask_save_plot(plot: TimePlot, parent: QWidget | None = None) -> None:
+    """Ask for a place and save it there."""
+    name = plot.accessibleName().split(" over")[0].replace(" ", "-") or "plot"
+    start = str(Path.home() / f"{name}.png")
+    file, kind = QFileDialog.getSaveFileName(parent or plot.window(), "Save plot", start, _KINDS)
+    if not file:
+        return
+    path = Path(file) if Path(file).suffix else Path(file).with_suffix(".svg" if "svg" in kind else ".png")
+    try:
+        save_plot(plot, path)
+    except FileWriteError as problem:
+        box = QMessageBox(QMessageBox.Icon.Warning, "rvsim", "Nothing was written.", parent=plot.window())
+        box.setObjectName("file_problem")
+        box.setInformativeText(str(problem))
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.open()
+
+
+def _draw(plot: TimePlot, painter: QPainter) -> None:
+    size = QRectF(0.0, 0.0, plot.width(), plot.height())
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.fillRect(size, plot.plot.backgroundBrush())
+    plot.plot.render(painter, size, plot.plot.viewport().rect())
+
+
+def _png(plot: TimePlot) -> bytes:
+    kept = QByteArray()
+    buffer = QBuffer(kept)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    QImageWriter(buffer, QByteArray(b"png")).write(plot_image(plot))
+    return bytes(kept.data())
+
+
+def _svg(plot: TimePlot) -> bytes:
+    kept = QByteArray()
+    buffer = QBuffer(kept)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    made = QSvgGenerator()
+    made.setOutputDevice(buffer)
+    made.setSize(QSize(plot.width(), plot.height()))
+    made.setViewBox(QRectF(0.0, 0.0, plot.width(), plot.height()))
+    made.setTitle(plot.accessibleName())
+    with QPainter(made) as painter:
+        _draw(plot, painter)
+    return bytes(kept.data())
