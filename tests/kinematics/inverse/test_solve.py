@@ -24,6 +24,16 @@ def inside(robot: Robot, q: np.ndarray) -> bool:
     return bool(np.all((q >= robot.limits[:, 0] - 1e-9) & (q <= robot.limits[:, 1] + 1e-9)))
 
 
+def special_poses(robot: Robot, count: int) -> np.ndarray:
+    """q (count, n): every joint at a stop, or at a multiple of 30° or 45° within its limits."""
+    rng, angles = np.random.default_rng(0), np.radians([0.0, 30.0, 45.0, 90.0, 135.0, 180.0])
+    columns = []
+    for joint in robot.joints:
+        chosen = [*angles, *-angles, joint.lower, joint.upper] if joint.revolute else [joint.lower, joint.upper]
+        columns.append(rng.choice([v for v in chosen if joint.lower <= v <= joint.upper], count))
+    return np.array(columns).T
+
+
 class TestVerdicts:
     def test_each_branch_tells_what_it_is(self):
         robot, near = load_robot("rv-m1"), np.array([0.1, 0.3, -0.5, 0.2, 0.4])
@@ -67,7 +77,12 @@ class TestVerdicts:
         assert [branch.within_limits for branch in result.branches] == [True, False]
 
     @pytest.mark.parametrize(
-        ("name", "near"), [("rv-1a", [0.2, 1.5, 0.3, 0.7, 0.0, -0.4]), ("cylindrical", [2.3, 0.2, 0.0])]
+        ("name", "near"),
+        [
+            ("rv-1a", [0.2, 1.5, 0.3, 0.7, 0.0, -0.4]),
+            ("cylindrical", [2.3, 0.2, 0.0]),
+            ("spherical", [0.4, 0.7, 0.0]),
+        ],
     )
     def test_an_axis_that_is_free_stays_where_it_is(self, name, near):
         robot = load_robot(name)
@@ -75,6 +90,24 @@ class TestVerdicts:
         stayed = min(branches, key=lambda branch: branch.distance)
         assert stayed.continuum
         np.testing.assert_allclose(stayed.q, near, atol=1e-9)
+
+    @pytest.mark.parametrize("name", ["rv-m1", "al5b", "rv-1a", "ur5e", "articulated", "spherical", "planar"])
+    def test_an_arm_within_its_limits_is_where_it_is_at_stops_and_singular_poses_too(self, name):
+        robot = load_robot(name)
+        for q in special_poses(robot, 150):
+            T = forward_kinematics(robot, q)
+            failure = inverse_kinematics(robot, T).failure  # at home a free waist may ask too much of the roll
+            assert failure is None or failure.branch.continuum
+            best = inverse_kinematics(robot, T, near=q).best
+            assert best is not None
+            assert best.distance < 1e-6
+            assert inside(robot, best.q)
+
+    def test_a_free_waist_is_marked_where_the_elbow_is_singular_as_well(self):
+        robot, q = load_robot("rv-m1"), np.radians([135.0, 90.0, 180.0, 0.0, 135.0])
+        branches = inverse_kinematics(robot, forward_kinematics(robot, q), near=q).branches
+        assert branches
+        assert all(branch.continuum for branch in branches)
 
     def test_a_free_wrist_turns_where_the_elbow_needs_it(self):
         # The flange is parallel to axis 4, so θ6 is free; but at θ6 = 0 the elbow would have to be longer than it is.
