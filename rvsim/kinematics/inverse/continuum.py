@@ -12,6 +12,7 @@ from rvsim.spatial import rotation_error
 from rvsim.spatial.arrays import FloatArray
 
 _SINGULAR = 1e-7
+_SHARE = 0.1  # joints that hardly take part lead nowhere
 _STRIDE = 1e-2
 _CORRECTIONS = 12
 
@@ -20,19 +21,35 @@ def are_continua(robot: Robot, q: FloatArray, J: FloatArray, entries: int) -> ND
     """(b,) which of the poses q (b, n), with their Jacobians J (b, 6, n), are one of infinitely many each."""
     if robot.dof > entries:
         return np.zeros(len(q), dtype=bool)  # by the task's nature there are always more: that is not worth a word
-    singular = np.linalg.svd(J[:, :entries], compute_uv=False)[:, -1] <= _SINGULAR
-    return np.array([bool(singular[i]) and _is_continuum(robot, q[i], J[i, :entries], entries) for i in range(len(q))])
+    lost = np.linalg.svd(J[:, :entries], compute_uv=False) <= _SINGULAR
+    return np.array([bool(row.any()) and _is_continuum(robot, q[i], J[i], entries) for i, row in enumerate(lost)])
 
 
 def _is_continuum(robot: Robot, q: FloatArray, J: FloatArray, entries: int) -> bool:
-    """Whether the arm can move away from q (n,) and keep the tool, at a singular pose with the Jacobian J
-    (entries, n): entries = 6 its pose, 3 its place only.
+    """Whether the arm can move away from q (n,) and keep the tool, at a singular pose with the Jacobian J (6, n).
 
-    Asked by doing it: a stride along the motion the Jacobian does not see, then Newton back onto the pose. A singular
-    pose that stands alone (a straight elbow) is pulled back to where it was; on a continuum it is not.
+    Asked of every motion of its own that the Jacobian does not see: where two things are singular at once, a straight
+    elbow may stand alone while the waist is free.
     """
-    Vt = np.linalg.svd(J)[2]
-    goal, moved = forward_kinematics(robot, q), q + _STRIDE * Vt[-1]
+    return any(_leads_away(robot, q, motion, entries) for motion in _unseen_motions(J[:entries]))
+
+
+def _unseen_motions(J: FloatArray) -> FloatArray:
+    """(k, n) unit motions of the joints that J (m, n) does not see: a basis, and each joint's share in them."""
+    _, sigma, Vt = np.linalg.svd(J)
+    basis = Vt[np.count_nonzero(sigma > _SINGULAR) :]
+    if len(basis) == 1:
+        return basis
+    shares = basis.T @ basis
+    lengths = np.linalg.norm(shares, axis=1)
+    there = lengths > _SHARE
+    return np.concatenate([basis, shares[there] / lengths[there, None]])
+
+
+def _leads_away(robot: Robot, q: FloatArray, motion: FloatArray, entries: int) -> bool:
+    """Whether a stride along a motion (n,), then Newton back onto the pose, ends elsewhere: entries = 6 keeps the
+    pose, 3 the place only. A singular pose that stands alone is pulled back to where it was."""
+    goal, moved = forward_kinematics(robot, q), q + _STRIDE * motion
     for _ in range(_CORRECTIONS):
         T = forward_kinematics(robot, moved)
         error = np.concatenate([goal[:3, 3] - T[:3, 3], rotation_error(T[:3, :3], goal[:3, :3])])[:entries]
