@@ -69,11 +69,15 @@ class RollAndExtend(ClosedForm):
 
     def reaches(self, place: FloatArray) -> bool | None:
         """Whether some branch brings the tool there with the roll at 0."""
-        return not bool(np.isnan(self.solve_place(place[:, None], 0.0, 0.0)).all())
+        return not bool(np.isnan(self.solve_place(place[:, None], np.zeros(4))).all())
 
     @np.errstate(divide="ignore", invalid="ignore")
-    def solve_place(self, place: FloatArray, theta3: float, free: float) -> FloatArray:
-        """Variables of the normal form (4, 4, m) that bring the tool to places (3, m) in frame 0, the roll given."""
+    def solve_place(self, place: FloatArray, free: FloatArray) -> FloatArray:
+        """Variables of the normal form (4, 4, m) that bring the tool to places (3, m) in frame 0.
+
+        The roll is that of `free` (n,), and so is any other joint that is free there.
+        """
+        theta3 = float(free[2])
         chain, tip = self.chain, self.chain.T_n_tool[:3, 3]
         c, s = math.cos(theta3 + chain.theta[3]), math.sin(theta3 + chain.theta[3])
         along, aside = c * tip[0] - s * tip[1], s * tip[0] + c * tip[1]

@@ -94,7 +94,7 @@ def _place_with_roll(form: ClosedForm, T: FloatArray, near: FloatArray) -> Candi
     assert isinstance(form, RollAndExtend)
     chain, inner = form.chain, form.chain.inner(near)
     place = frame_entries(chain, T[None], flange=False)[:, 3]
-    q = chain.to_joints(form.solve_place(place, float(inner[2]), float(inner[0])))[:, :, 0]
+    q = chain.to_joints(form.solve_place(place, inner))[:, :, 0]
     return Candidates(q, form.place_labels, T, PLACE_ENTRIES)
 
 

@@ -100,7 +100,7 @@ class Spherical(ClosedForm):
         c, s = math.cos(chain.theta[2]), math.sin(chain.theta[2])
         across, offset = chain.a[1] + c * tip[0] - s * tip[1], chain.d[1] + s * tip[0] + c * tip[1]
         q = empty_rows(4, 3, S.shape[2])
-        q[:, 0], q[:, 1], length = solve_extension(chain, S[:, 3], float(across), float(offset), float(free[0]))
+        q[:, 0], q[:, 1], length = solve_extension(chain, S[:, 3], float(across), float(offset), free)
         q[:, 2] = length - tip[2]
         q[np.broadcast_to(np.isnan(length)[:, None], q.shape)] = np.nan
         return q

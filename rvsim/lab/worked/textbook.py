@@ -6,7 +6,9 @@ import math
 
 import numpy as np
 
+from rvsim.kinematics.inverse.closed_form import is_zero
 from rvsim.kinematics.inverse.elbow import COSINE_TOLERANCE
+from rvsim.kinematics.inverse.extension import AT_SHOULDER
 from rvsim.kinematics.inverse.words import ELBOW
 from rvsim.lab.worked.figures import Quantity
 from rvsim.lab.worked.links import Fold, Links, elbow_names, fold_equations, sum_equations, write_links
@@ -84,6 +86,7 @@ def _into_plane(book: Notebook, waist: Waist, side: Side, z: Quantity) -> tuple[
 
 _AHEAD = ("extended ahead", "extended behind")
 _PYTHAGORAS = "The squared distance from the shoulder, less the part across the sliding axis, is the square of L."
+_ANY_SHOULDER = "The tool is at the shoulder: any q₂ will do. Here {} is taken."
 _SLIDE = "With this sign of L; what lies beyond the tool's own length is the joint's."
 
 
@@ -130,6 +133,9 @@ def _write_slide(
     length: float,
     tip: float,
 ) -> None:
+    if is_zero(across.value) and abs(length) <= AT_SHOULDER * book.rows.robot.size:
+        _write_free_shoulder(book, side, path, length - tip)
+        return
     (u, w), turn = point, float(book.rows.turn[1])
     alpha = Quantity("\\alpha", math.atan2(w.value, u.value), "angle")
     beta = Quantity("\\beta", math.atan2(turn * length, across.value), "angle")
@@ -146,6 +152,13 @@ def _write_slide(
         *book.joint(2, length - tip, "<L,>-<t>" if tip else "<L,>", L=L, t=t),
     )
     book.solved(path, side.theta1, theta2, length - tip)
+
+
+def _write_free_shoulder(book: Notebook, side: Side, path: Path, stroke: float) -> None:
+    theta2 = book.taken(path, 1)
+    text = _ANY_SHOULDER.format(book.figures.text(theta2, "angle"))
+    book.step(path, "Shoulder and slide", text)
+    book.solved(path, side.theta1, theta2, stroke)
 
 
 # --- SCARA -----------------------------------------------------------------------------------------------------------

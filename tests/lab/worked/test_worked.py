@@ -254,6 +254,15 @@ def test_a_cylindrical_arm_on_its_axis_stays_where_it_is():
     np.testing.assert_allclose(ends[0].q, q, atol=1e-12)
 
 
+def test_a_spherical_arm_with_its_tool_at_the_shoulder_keeps_its_shoulder_angle():
+    robot, q = load_robot("spherical"), np.array([0.4, 0.7, 0.0])
+    solution = worked_solution(robot, forward_kinematics(robot, q), q)
+    assert any("any q₂ will do" in step.text and "40.11°" in step.text for step in solution.steps)
+    assert solution.solutions
+    assert min(apart(robot, end.q, q) for end in solution.solutions) < 1e-9
+    assert all(abs(end.q[1] - q[1]) < 1e-9 for end in solution.solutions)
+
+
 # --- errata ----------------------------------------------------------------------------------------------------------
 
 ERRATA = {
