@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from rvsim.errors import FileWriteError
 from rvsim.gui.plots.catalogue import Drawing, Line
-from rvsim.gui.plots.saving import plot_menu, save_plot
+from rvsim.gui.plots.saving import plot_image, plot_menu, save_plot
 from rvsim.gui.plots.time_plot import TimePlot
 from rvsim.gui.preferences import Preferences
 
@@ -56,3 +56,14 @@ def test_the_menu_copies_the_plot(plot: TimePlot) -> None:
     assert set(actions) == {"plot_save", "plot_copy"}
     actions["plot_copy"].trigger()
     assert QGuiApplication.clipboard().image().width() == 800
+
+
+def test_several_curves_get_a_line_with_their_names(plot: TimePlot, tmp_path: Path) -> None:
+    times = np.linspace(0.0, 2.0, 50)
+    lines = tuple(Line(name, "#0072b2", times) for name in ("waist", "elbow"))
+    plot.show_drawing(Drawing("Joint angles", "°", lines), times, ())
+    save_plot(plot, tmp_path / "p.svg")
+    text = (tmp_path / "p.svg").read_text(encoding="utf-8")
+    assert ">waist<" in text
+    assert ">elbow<" in text
+    assert plot_image(plot).height() > 400
