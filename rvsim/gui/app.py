@@ -19,7 +19,7 @@ from rvsim.gui.renderers.opengl_context import prepare_opengl, probe_opengl
 from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.screenshot import save_screenshot
 from rvsim.gui.session import Session
-from rvsim.gui.theme import load_fonts, wear_theme
+from rvsim.gui.theme import load_fonts, prepare_theme, wear_theme
 from rvsim.lab.lines import default_experiment
 from rvsim.resources import resource
 from rvsim.robot import Robot
@@ -40,8 +40,9 @@ def build_window(preferences: Preferences | None = None, *, robot: str = "", ren
     first = _first_robot(library, robot, wishes["robot"])
     session = Session(default_experiment(first), default_experiment)
     choice = choose_renderer(renderer or wishes["renderer"], QGuiApplication.platformName(), probe_opengl)
-    wear_theme(wishes)  # before there are widgets: dressing them one by one is slower
+    prepare_theme(wishes)
     window = MainWindow(session, wishes, library, choice)
+    wear_theme(wishes)
     window.say_welcome()
     return window
 

@@ -131,17 +131,25 @@ QLabel[level="good"] {{ color: {good}; }}
 
 def apply_theme(app: QApplication, name: str, *, presentation: bool = False) -> Theme:
     """Dress the whole application; an application that is dressed so already is left alone, for that is slow."""
-    theme, worn = THEMES[name], f"{name} {presentation}"
-    if app.property("theme") == worn:
+    theme = _prepare(app, name, presentation)
+    if app.property("theme") == app.property("prepared_theme"):
         return theme
-    app.setProperty("theme", worn)
-    app.setStyle("Fusion")
-    app.setPalette(_palette(theme))
-    app.setFont(_font(app, presentation))
-    app.setProperty("text_scale", text_scale(presentation))
+    app.setProperty("theme", app.property("prepared_theme"))
     shade = "dark" if theme.dark else "light"
     icons = {icon: resource("icons", f"{icon}-{shade}.svg").as_posix() for icon in ("arrow", "check")}
     app.setStyleSheet(_STYLE.format(**theme._asdict(), **icons))
+    return theme
+
+
+def _prepare(app: QApplication, name: str, presentation: bool) -> Theme:
+    """Style, colours and font, which widgets may measure while they are made; all but the style sheet."""
+    theme, asked = THEMES[name], f"{name} {presentation}"
+    if app.property("prepared_theme") != asked:
+        app.setProperty("prepared_theme", asked)
+        app.setStyle("Fusion")
+        app.setPalette(_palette(theme))
+        app.setFont(_font(app, presentation))
+        app.setProperty("text_scale", text_scale(presentation))
     return theme
 
 
@@ -152,9 +160,21 @@ def text_scale(presentation: bool) -> float:
 
 def wear_theme(preferences: Preferences) -> None:
     """Dress the running application as the preferences say."""
+    apply_theme(_application(), preferences["theme"], presentation=preferences["presentation"])
+
+
+def prepare_theme(preferences: Preferences) -> None:
+    """All of `wear_theme` but the style sheet: under it a widget is dressed again each time it is put into another.
+
+    Widgets that are made now, and dressed together when all is in its place, take half the time.
+    """
+    _prepare(_application(), preferences["theme"], preferences["presentation"])
+
+
+def _application() -> QApplication:
     app = QApplication.instance()
     assert isinstance(app, QApplication)
-    apply_theme(app, preferences["theme"], presentation=preferences["presentation"])
+    return app
 
 
 def set_role(widget: object, **properties: object) -> None:
