@@ -62,6 +62,12 @@ class Measures:
         return self.singular_values.size
 
     @property
+    def ratio(self) -> float:
+        """The smallest over the largest singular value, 0…1; 0 too where no joint moves anything."""
+        largest = float(self.singular_values[0])
+        return self.sigma_min / largest if largest else 0.0
+
+    @property
     def condition(self) -> float:
         """The largest over the smallest singular value; inf where that is lost."""
         return float(self.singular_values[0]) / self.sigma_min if self.rank == self.full_rank else math.inf

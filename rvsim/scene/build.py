@@ -92,7 +92,7 @@ def scene_bounds(robot: Robot) -> FloatArray:
     T = link_transforms(robot, _poses(robot))
     points = np.concatenate([(T[:, -1] @ robot.T_flange_tool)[:, :3, 3], *body_points(robot, T)])
     points = np.concatenate([T[..., :3, 3].reshape(-1, 3), points, np.zeros((1, 3))])
-    margin = 0.02 * float(np.ptp(points, axis=0).max())
+    margin = 0.02 * (float(np.ptp(points, axis=0).max()) or robot.size)
     bounds: FloatArray = np.array([points.min(axis=0) - margin, points.max(axis=0) + margin])
     bounds[0, 2] = max(bounds[0, 2], -_BELOW * robot.size)
     bounds.setflags(write=False)

@@ -231,7 +231,15 @@ def test_condition_and_manipulability_come_from_the_singular_values():
     found = singularity(robot, [0.2, -1.2, 0.8, 0.5, 1.0, 0.3])
     assert found.manipulability == pytest.approx(abs(np.linalg.det(found.J)))
     assert found.condition == pytest.approx(np.linalg.cond(found.J))
+    assert found.task.ratio == pytest.approx(1.0 / found.condition)
     assert singularity(robot, np.zeros(6)).condition == np.inf
+
+
+def test_the_tip_of_an_arm_without_lengths_moves_nowhere():
+    planar = load_robot("planar")
+    short = replace(planar, joints=tuple(replace(joint, a=0.0, d=0.0) for joint in planar.joints))
+    found = singularity(short, [0.3, 0.4]).position
+    assert (found.rank, found.ratio, found.condition) == (0, 0.0, np.inf)
 
 
 def test_the_limits_hold_on_the_way_into_a_family():

@@ -9,7 +9,7 @@ import pytest
 
 from rvsim.files import load_robot, robot_names
 from rvsim.kinematics import forward_kinematics, link_transforms
-from rvsim.robot import Robot
+from rvsim.robot import Joint, Robot
 from rvsim.scene import Capsule, Color, Dots, Item, Labels, Polyline
 from rvsim.scene.build import LOOKS, Look, SceneOptions, arm_items, compose, scene_bounds
 from rvsim.scene.floor import FLOOR_KEY
@@ -26,6 +26,12 @@ def robot(request: pytest.FixtureRequest) -> Robot:
 
 def _by_key(items: tuple[Item, ...]) -> dict[str, Item]:
     return {item.key: item for item in items}
+
+
+def test_an_arm_without_lengths_still_stands_on_a_floor() -> None:
+    point = Robot("point", "Point", "standard", (Joint("J1", "revolute", 0.0, 0.0, 0.0, 0.0),))
+    assert (np.ptp(scene_bounds(point), axis=0)[:2] > 0.0).all()
+    assert FLOOR_KEY in {item.key.split(".")[0] for item in compose(point, [0.0], LIGHT).items}
 
 
 def test_the_rv_m1_has_the_eleven_points_of_its_source() -> None:

@@ -47,10 +47,9 @@ MEASURES: tuple[tuple[str, str], ...] = (
 
 def measure_texts(measures: Measures) -> tuple[str, ...]:
     """The five numbers of `MEASURES`."""
-    ratio = measures.sigma_min / float(measures.singular_values[0])
     return (
         small_number(measures.sigma_min),
-        small_number(ratio),
+        small_number(measures.ratio),
         _condition(measures.condition),
         small_number(measures.manipulability),
         f"{measures.rank} of {measures.full_rank}",
@@ -77,8 +76,7 @@ def light_of(found: Singularity, threshold: float) -> Light:
         return SINGULAR
     if measures is found.whole and found.position.rank < found.position.full_rank:
         return PLACE_SINGULAR
-    ratio = measures.sigma_min / float(measures.singular_values[0])
-    return CLOSE if ratio < threshold else CLEAR
+    return CLOSE if measures.ratio < threshold else CLEAR
 
 
 def verdict_sentence(found: Singularity) -> str:
