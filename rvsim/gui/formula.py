@@ -82,7 +82,7 @@ _SUPERSCRIPTS, _SUBSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹", "₀₁₂₃₄₅�
 _WORDS = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "theta": "θ", "lambda": "λ", "varphi": "φ", "psi": "ψ",
     "rho": "ρ", "Sigma": "Σ", "perp": "⊥", "cdot": " · ", "equiv": " ≡ ", ",": " ", "arcsin": "arcsin ", "cos": "cos ",
-    "sin": "sin ", "times": " × ", "arccos": "arccos ", "quad": "  ",
+    "sin": "sin ", "times": " × ", "arccos": "arccos ", "quad": "  ", "pi": "π",
 }  # fmt: skip
 
 

@@ -14,6 +14,7 @@ from rvsim.gui.panels.how_steps import Path, StepView, wrapped_label
 from rvsim.gui.panels.how_tree import BranchTree
 from rvsim.gui.panels.shown import ReadOutPanel
 from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import shown_units
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import column_of, scrolled
@@ -128,7 +129,7 @@ class HowPanel(ReadOutPanel):
         self._shown_for = robot, q
         T = forward_kinematics(robot, q) if self._target is None else self._target
         try:
-            self.solution = worked_solution(robot, T, q)
+            self.solution = worked_solution(robot, T, q, shown_units(self._preferences))
         except NoClosedFormError as refusal:
             self.solution = None
             self.refusal.setText(f"{refusal} The numeric solvers can still find solutions for it.")

@@ -55,8 +55,9 @@ def _pitch_000(figures: Figures, k: Numbers) -> str:
     fourth = k["phi"] - k["q2"] - k["q3"]
     wrist, right = _angle(figures, fourth), _angle(figures, fourth + 0.5 * math.pi)
     return (
-        "Source 000, (16) and (17), call the sum φ but mean the DH angle, which is the joint's plus 90°: with the "
-        f"pitch as φ it would give {wrist} where the DH angle is {right}."
+        "Source 000, (16) and (17), call the sum φ but mean the DH angle, which is the joint's plus "
+        f"{'90°' if figures.in_degrees else 'π/2'}: with the pitch as φ it would "
+        f"give {wrist} where the DH angle is {right}."
     )
 
 

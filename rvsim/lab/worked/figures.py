@@ -1,7 +1,8 @@
-"""Numbers in formulas: degrees, millimetres (or the arm's own unit) and plain numbers, put into templates.
+"""Numbers in formulas: angles, lengths in the wanted (or the arm's own) unit and plain numbers, put into templates.
 
 A template is LaTeX with `<name>` where a quantity stands and `*` for a product: symbols are set side by side, numbers
-with a dot between. A negative number gets parentheses, unless its name ends in a comma: `<name,>`.
+with a dot between. A negative number gets parentheses, unless its name ends in a comma: `<name,>`. Fixed angles in it
+are written in degrees, `180^\\circ`; in radians they become parts of π.
 """
 
 from __future__ import annotations
@@ -14,13 +15,37 @@ from typing import ClassVar, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rvsim.lab.sentences import Units
 from rvsim.lab.worked.values import Equation
 from rvsim.robot import Robot
-from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 Kind = Literal["angle", "length", "number"]
 _HOLE = re.compile(r"<(\w+)(,?)>")
+_FIXED_ANGLE = re.compile(r"([\d.]+)\^\\circ")
 _ROUNDING = 1e-9
+_DEFAULT = Units()
+
+
+class _Style(NamedTuple):
+    """How one kind of number is written: factor · SI value; the sign of its unit in a formula and in a sentence.
+
+    A degree sign stands in the middle of a formula too, other units beside its result alone.
+    """
+
+    factor: float
+    decimals: str
+    unit: str
+    word: str
+
+
+_STYLES = {
+    "deg": _Style(180.0 / math.pi, "degrees", "^\\circ", "°"),
+    "rad": _Style(1.0, "radians", "\\,\\mathrm{rad}", " rad"),
+    "mm": _Style(1e3, "millimetres", "\\,\\mathrm{mm}", " mm"),
+    "m": _Style(1.0, "metres", "\\,\\mathrm{m}", " m"),
+    "units": _Style(1.0, "units", "", " units"),
+    "number": _Style(1.0, "number", "", ""),
+}
 
 
 class Quantity(NamedTuple):
@@ -32,33 +57,46 @@ class Quantity(NamedTuple):
 
 
 class Figures:
-    """How the numbers of one arm are written."""
+    """How the numbers of one arm are written: in these units, lengths in the arm's own where it has one."""
 
-    DECIMALS: ClassVar[dict[str, int]] = {"angle": 2, "number": 4, "length": 1, "unit_length": 3}
+    DECIMALS: ClassVar[dict[str, int]] = {
+        "degrees": 2, "radians": 4, "number": 4, "millimetres": 1, "metres": 4, "units": 3,
+    }  # fmt: skip
 
-    def __init__(self, robot: Robot) -> None:
-        self._millimetres = robot.length_unit == "millimetre"
+    def __init__(self, robot: Robot, units: Units = _DEFAULT) -> None:
+        length = units.length if robot.length_unit == "millimetre" else "units"
+        self._styles = {"angle": _STYLES[units.angle], "length": _STYLES[length], "number": _STYLES["number"]}
+        self.in_degrees = units.angle == "deg"
 
     def number(self, value: float, kind: Kind) -> str:
-        """A bare number; an angle has its degree sign, a length no unit."""
-        if kind == "angle":
-            return f"{_fixed(degrees_from_radians(value), self.DECIMALS[kind])}^\\circ"
-        if kind == "number":
-            return _fixed(value, self.DECIMALS[kind])
-        if self._millimetres:
-            return _fixed(millimetres_from_metres(value), self.DECIMALS[kind])
-        return _fixed(value, self.DECIMALS["unit_length"])
+        """A number for the middle of a formula: an angle in degrees has its sign, no other unit is written."""
+        sign = "^\\circ" if kind == "angle" and self.in_degrees else ""
+        return self._bare(value, kind) + sign
 
     def result(self, value: float, kind: Kind) -> str:
         """A number with its unit."""
-        unit = "\\,\\mathrm{mm}" if self._millimetres else ""
-        return self.number(value, kind) + (unit if kind == "length" else "")
+        return self._bare(value, kind) + self._styles[kind].unit
 
     def text(self, value: float, kind: Kind) -> str:
         """A number with its unit for a sentence."""
-        number = self.number(value, kind).replace("^\\circ", "°").replace("-", "\u2212")
-        unit = " mm" if self._millimetres else " units"
-        return number + (unit if kind == "length" else "")
+        return self._bare(value, kind).replace("-", "\u2212") + self._styles[kind].word
+
+    def constant(self, value: float, kind: Kind) -> str:
+        """A positive number of the arm's table, as short as it can be said: 90°, π/2."""
+        if kind == "angle" and not self.in_degrees:
+            return _part_of_pi(value) or self.number(value, kind)
+        return self.number(value, kind).replace(".00^", "^")
+
+    def _bare(self, value: float, kind: Kind) -> str:
+        style = self._styles[kind]
+        return _fixed(style.factor * value, self.DECIMALS[style.decimals])
+
+    def _fixed_angles(self, template: str, *, exact: bool) -> str:
+        """A template with its fixed angles in the present unit: for the formula exact, for its numbers decimal."""
+        if self.in_degrees:
+            return template
+        write = self.constant if exact else self.number
+        return _FIXED_ANGLE.sub(lambda angle: write(math.radians(float(angle[1])), "angle"), template)
 
     def equation(self, result: Quantity, template: str, *quantities: Quantity, **named: Quantity) -> Equation:
         """The formula, its numbers and its result; quantities answer to their symbols without backslash and braces.
@@ -66,8 +104,12 @@ class Figures:
         An angle beyond half a turn is shown as it comes out, and as the same angle within [−π, π].
         """
         known = {_name(quantity.symbol): quantity for quantity in quantities} | named
-        symbolic = _HOLE.sub(lambda hole: known[hole[1]].symbol, template).replace("*", "\\,")
-        numbers = _HOLE.sub(lambda hole: self._operand(known[hole[1]], bool(hole[2])), template)
+        symbolic = _HOLE.sub(lambda hole: known[hole[1]].symbol, self._fixed_angles(template, exact=True)).replace(
+            "*", "\\,"
+        )
+        numbers = _HOLE.sub(
+            lambda hole: self._operand(known[hole[1]], bool(hole[2])), self._fixed_angles(template, exact=False)
+        )
         shown, value = self.result(result.value, result.kind), result.value
         if result.kind == "angle" and abs(wrapped(value) - value) > _ROUNDING:
             value = wrapped(value)
@@ -92,6 +134,14 @@ class Figures:
 def wrapped(angle: float) -> float:
     """The same angle within [−π, π]."""
     return math.remainder(angle, 2.0 * math.pi)
+
+
+def _part_of_pi(angle: float) -> str:
+    """A positive angle as π, or π over a small number, or "" where it is neither."""
+    for below in range(1, 7):
+        if abs(angle * below - math.pi) <= _ROUNDING:
+            return "\\pi" if below == 1 else f"\\frac{{\\pi}}{{{below}}}"
+    return ""
 
 
 def _name(symbol: str) -> str:

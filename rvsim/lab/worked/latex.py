@@ -9,7 +9,7 @@ _HEAD = """\\documentclass{article}
 \\setcounter{MaxMatrixCols}{12}
 \\begin{document}
 """
-_GREEK = {"α": "alpha", "β": "beta", "γ": "gamma", "θ": "theta", "λ": "lambda", "φ": "varphi", "ψ": "psi"}
+_GREEK = {"α": "alpha", "β": "beta", "γ": "gamma", "θ": "theta", "λ": "lambda", "π": "pi", "φ": "varphi", "ψ": "psi"}
 _MATHEMATICS = {
     "°": "^\\circ",
     "\u2212": "-",

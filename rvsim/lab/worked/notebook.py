@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from rvsim.lab.sentences import Units
 from rvsim.lab.worked.errata import source_note
 from rvsim.lab.worked.figures import Figures, Quantity, wrapped
 from rvsim.lab.worked.rows import Rows
@@ -23,10 +24,11 @@ class Notebook:
         rows: the DH rows it is written with.
         known: the branches by label, (n,) each: where a joint is free, the solution takes the value they have.
         near: (n,) what a free joint is where no branch tells.
+        units: what angles and lengths are written in.
     """
 
-    def __init__(self, rows: Rows, known: Mapping[str, FloatArray], near: FloatArray) -> None:
-        self.rows, self.figures = rows, Figures(rows.robot)
+    def __init__(self, rows: Rows, known: Mapping[str, FloatArray], near: FloatArray, units: Units) -> None:
+        self.rows, self.figures = rows, Figures(rows.robot, units)
         self._known, self._near = known, near
         self.steps: list[Step] = []
         self.ends: list[WorkedBranch] = []
@@ -91,7 +93,7 @@ class Notebook:
             return (found,)
         inner = inner._replace(value=found.value)
         offset = float(self.rows.offset[i])
-        shift = Quantity(self.figures.number(abs(offset), inner.kind).replace(".00^", "^"), abs(offset), inner.kind)
+        shift = Quantity(self.figures.constant(abs(offset), inner.kind), abs(offset), inner.kind)
         q = Quantity(f"q_{i + 1}", self.rows.joint(i, found.value), inner.kind)
         template = _CONVERSIONS[self.rows.sign[i] > 0.0, int(math.copysign(1.0, offset)) if offset else 0]
         return found, self.figures.equation(q, template, inner=inner, shift=shift)

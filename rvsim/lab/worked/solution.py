@@ -12,12 +12,14 @@ from rvsim.kinematics.dh import one_pose
 from rvsim.kinematics.inverse import Branch, inverse_kinematics
 from rvsim.kinematics.inverse.batch import solve_block
 from rvsim.kinematics.inverse.closed_form import ClosedForm
+from rvsim.kinematics.inverse.copies import LIMIT_TOLERANCE
 from rvsim.kinematics.inverse.families import closed_form
 from rvsim.kinematics.inverse.five_axis import FiveAxis
 from rvsim.kinematics.inverse.rrrp import RollAndExtend
 from rvsim.kinematics.inverse.spherical_wrist import SphericalWrist
 from rvsim.kinematics.inverse.textbook import Articulated, Cartesian, Cylindrical, Planar, Scara, Spherical
 from rvsim.kinematics.inverse.ur import ParallelAxes
+from rvsim.lab.sentences import Units
 from rvsim.lab.worked.figures import Figures, Kind
 from rvsim.lab.worked.five_axis import solve_five_axis
 from rvsim.lab.worked.notebook import Notebook
@@ -53,16 +55,20 @@ _WRITERS: dict[type[ClosedForm], Writer] = {
 _UNCONFIRMED = (
     "No solution: so close to a singular pose rounding is too large, and forward kinematics does not confirm it."
 )
+_DEFAULT = Units()
 _SAME = 1e-4  # [rad, m] an end and a branch closer than this are one
 
 
-def worked_solution(robot: Robot, T: ArrayLike, near: ArrayLike | None = None) -> WorkedSolution:
+def worked_solution(
+    robot: Robot, T: ArrayLike, near: ArrayLike | None = None, units: Units = _DEFAULT
+) -> WorkedSolution:
     """The closed form of an arm, step by step, for the tool pose T (4, 4) and the arm's own task.
 
     Args:
         robot: an arm with a closed form.
         T: T_base_tool.
         near: (n,) where the arm is [rad, m]: it chooses the copies by whole turns, and the values of free joints.
+        units: what angles and lengths are written in; an arm without a unit of length keeps its own.
 
     Raises:
         NoClosedFormError: the arm has none; the message says which condition it breaks.
@@ -74,20 +80,20 @@ def worked_solution(robot: Robot, T: ArrayLike, near: ArrayLike | None = None) -
     result = inverse_kinematics(robot, T, near=here)
     pose = floats("T", T, 4, 4)
     known = dict(zip(form.labels, solve_block(form, pose[None], here)[:, :, 0], strict=True))
-    book = Notebook(rows_of(form.chain), known, here)
+    book = Notebook(rows_of(form.chain), known, here, units)
     _WRITERS[type(form)](book, pose)
-    ends = tuple(_with_verdict(robot, end, result.branches) for end in book.ends)
+    ends = tuple(_with_verdict(book.figures, robot, end, result.branches) for end in book.ends)
     return WorkedSolution(f"{robot.title}: {form.title}", tuple(book.steps), ends)
 
 
-def _with_verdict(robot: Robot, end: WorkedBranch, branches: Sequence[Branch]) -> WorkedBranch:
+def _with_verdict(figures: Figures, robot: Robot, end: WorkedBranch, branches: Sequence[Branch]) -> WorkedBranch:
     if end.q is None:
         return end
     q = end.q
     branch = min(branches, key=lambda found: _distance(robot, found.q, q), default=None)
     if branch is None or _distance(robot, branch.q, q) > _SAME:
         return replace(end, q=None, reason=_UNCONFIRMED)
-    return replace(end, branch=branch, reason="" if branch.within_limits else _broken_limits(robot, branch))
+    return replace(end, branch=branch, reason="" if branch.within_limits else _broken_limits(figures, robot, branch))
 
 
 def _distance(robot: Robot, a: FloatArray, b: FloatArray) -> float:
@@ -97,12 +103,12 @@ def _distance(robot: Robot, a: FloatArray, b: FloatArray) -> float:
     return float(np.abs(difference - np.where(robot.is_revolute, turns, 0.0)).max())
 
 
-def _broken_limits(robot: Robot, branch: Branch) -> str:
+def _broken_limits(figures: Figures, robot: Robot, branch: Branch) -> str:
     """Which joints stop too early, with numbers."""
-    text = Figures(robot).text
+    text = figures.text
     broken = []
     for joint, value, margin in zip(robot.joints, branch.q.tolist(), branch.limit_margin.tolist(), strict=True):
-        if margin < 0.0:
+        if margin < -LIMIT_TOLERANCE:
             kind: Kind = "angle" if joint.revolute else "length"
             stop = joint.lower if value < joint.lower else joint.upper
             broken.append(f"{joint.name} needs {text(value, kind)}, stops at {text(stop, kind)}")

@@ -41,6 +41,18 @@ def test_it_shows_the_steps_of_the_branch_the_arm_is_on(panel):
     assert any("−205.2 mm" in view.note.text() for view in visible_steps(panel))
 
 
+def test_it_speaks_the_units_of_the_preferences(panel, preferences, qtbot):
+    settle(panel, qtbot)
+    preferences.set("angle_unit", "rad")
+    preferences.set("length_unit", "m")
+    settle(panel, qtbot)
+    text = "\n".join(view.equations.text() + view.note.text() for view in visible_steps(panel))
+    assert "= 0.5236 rad" in text
+    assert "−0.2052 m" in text
+    assert "°" not in text
+    assert "mm" not in text
+
+
 def test_the_way_can_be_chosen_without_moving_the_arm(panel, qtbot):
     click(panel, qtbot, "how_way_back")
     assert panel.followed[0] == "back"

@@ -11,6 +11,7 @@ from latex2mathml.converter import convert
 from rvsim.files import load_robot, robot_names
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.inverse import branch_labels, inverse_branches, inverse_kinematics, inverse_kinematics_batch
+from rvsim.lab.sentences import Units
 from rvsim.lab.worked import worked_latex, worked_solution
 from rvsim.lab.worked.figures import Figures
 from rvsim.robot import Tool
@@ -117,44 +118,57 @@ def test_the_ends_are_the_branches_of_arms_with_other_lengths_signs_and_tools_to
 _ATAN2 = r"\operatorname{atan2}"
 
 
-def evaluated(latex):
-    """The number a substituted formula stands for [degrees, mm, 1]; angles in, angles out."""
+def evaluated(latex, turn=2.0 * math.pi):
+    """The number a substituted formula stands for; angles in, angles out, `turn` is a whole one."""
     text = re.sub(r"\\frac\{(.*)\}\{([^{}]*)\}", r"((\1)/(\2))", latex)
     text = re.sub(r"\\sqrt\{(.*)\}", r"sqrt(\1)", text).replace(_ATAN2, "atan2").replace("\\,", "")
     text = re.sub(r"\\arcsin *(\(\(.*\))$", r"arcsin(\1)", text)
     text = re.sub(r"\\(cos|sin) *\(([^)]*)\)", r"\1(\2)", text)
     text = re.sub(r"\\(cos|sin) *([-0-9.]+)", r"\1(\2)", text)
     text = text.replace("^\\circ", "").replace("^", "**").replace("\\cdot", "*")
+    unit = turn / (2.0 * math.pi)
     functions = {
-        "atan2": lambda y, x: math.degrees(math.atan2(y, x)),
-        "arcsin": lambda v: math.degrees(math.asin(max(-1.0, min(1.0, v)))),
+        "atan2": lambda y, x: unit * math.atan2(y, x),
+        "arcsin": lambda v: unit * math.asin(max(-1.0, min(1.0, v))),
         "sqrt": lambda v: math.sqrt(max(v, 0.0)),
-        "cos": lambda v: math.cos(math.radians(v)),
-        "sin": lambda v: math.sin(math.radians(v)),
+        "cos": lambda v: math.cos(v / unit),
+        "sin": lambda v: math.sin(v / unit),
     }
     return eval(text, {"__builtins__": {}}, functions)
 
 
-def lines_of(robot, seed):
+def lines_of(robot, seed, units):
     for q in poses(robot, 12, seed):
-        for step in worked_solution(robot, forward_kinematics(robot, q)).steps:
+        for step in worked_solution(robot, forward_kinematics(robot, q), units=units).steps:
             for equation in step.equations:
                 if equation.substituted and equation.result and "bmatrix" not in equation.substituted:
                     yield equation
 
 
+@pytest.mark.parametrize("units", [Units(), Units("rad", "m")], ids=["degrees", "radians"])
 @pytest.mark.parametrize("name", ARMS)
-def test_every_substituted_formula_gives_the_result_beside_it(name, monkeypatch):
-    monkeypatch.setattr(Figures, "DECIMALS", {"angle": 13, "number": 15, "length": 13, "unit_length": 15})
+def test_every_substituted_formula_gives_the_result_beside_it(name, units, monkeypatch):
+    monkeypatch.setattr(Figures, "DECIMALS", dict.fromkeys(Figures.DECIMALS, 15))
+    turn, sign = (360.0, "\\circ") if units.angle == "deg" else (2.0 * math.pi, "rad")
     count = 0
-    for equation in lines_of(load_robot(name), seed=3):
+    for equation in lines_of(load_robot(name), 3, units):
         shown = re.split(r"\\equiv|\\,|\^", equation.result)[0]
-        difference = evaluated(equation.substituted) - float(shown)
-        if "\\circ" in equation.result:
-            difference = math.remainder(difference, 360.0)
+        difference = evaluated(equation.substituted, turn) - float(shown)
+        if sign in equation.result:
+            difference = math.remainder(difference, turn)
         assert abs(difference) < 1e-7, equation
         count += 1
     assert count > 20 or name == "cartesian"
+
+
+def test_in_radians_and_metres_nothing_is_left_of_degrees_and_millimetres():
+    for name in ARMS:
+        robot = load_robot(name)
+        T = forward_kinematics(robot, robot.home + 0.1)
+        for target in (T, at(0.9, 0.0, 0.9, T[:3, :3]), at(0.05, 0.0, 0.2, DOWN)):
+            text = worked_latex(worked_solution(robot, target, units=Units("rad", "m")))
+            assert "circ" not in text
+            assert not re.search(r"\bmm\b", text)
 
 
 # --- what cannot be had ----------------------------------------------------------------------------------------------
