@@ -17,13 +17,13 @@ from rvsim.gui.panel_docks import PanelDocks, lies_behind
 from rvsim.gui.panels.dh_table import DHTablePanel
 from rvsim.gui.panels.how import HowPanel
 from rvsim.gui.panels.inspect import INSPECT
-from rvsim.gui.panels.inspect_workspace import WorkspacePage
 from rvsim.gui.panels.inverse import InversePanel
 from rvsim.gui.panels.joints import JointsPanel
 from rvsim.gui.panels.laboratory import LaboratoryPanel
 from rvsim.gui.panels.laboratory_scene import LaboratoryScene
 from rvsim.gui.panels.matrices import MatricesPanel
 from rvsim.gui.panels.path import PathPanel
+from rvsim.gui.panels.path_pages import path_pages
 from rvsim.gui.panels.points import PointsPanel
 from rvsim.gui.panels.tool import ToolPanel
 from rvsim.gui.player_bar import PlayerBar
@@ -111,6 +111,9 @@ class MainWindow(QMainWindow):
 
     def _right_panels(self) -> list[tuple[str, str, QWidget]]:
         arguments = (self.session, self.preferences)
+        beside = path_pages(*arguments, self.stage, self.tracker, self.motion)
+        tip = "Lines and trajectories, and what came of tracking them"
+        path = (Page("path", "Track", tip, PathPanel(*arguments, self.tracker)), *beside)
         inverse = (
             Page("inverse", "Solve", "Every branch for a wanted pose, and why not", self._make_inverse()),
             Page("how", "How", "The closed form, step by step with this target's numbers", HowPanel(*arguments)),
@@ -123,7 +126,7 @@ class MainWindow(QMainWindow):
             Page("dh", "DH table", "The Denavit–Hartenberg table, to be changed live", DHTablePanel(*arguments)),
         )
         return [
-            ("path", "Path", PathPanel(*arguments, self.tracker)),
+            ("path", "Path", PageStack("path_pages", path)),
             ("inverse", "Inverse", PageStack("inverse_pages", inverse)),
             ("inspect", "Inspect", PageStack("inspect_pages", self._inspect_pages())),
             ("model", "Model", PageStack("model_pages", model)),
@@ -131,9 +134,7 @@ class MainWindow(QMainWindow):
 
     def _inspect_pages(self) -> list[Page]:
         arguments = (self.session, self.preferences, self.stage)
-        pages = [Page(kind.name.removeprefix("inspect_"), kind.title, tip, kind(*arguments)) for kind, tip in INSPECT]
-        self._inspectors = [page.widget for page in pages]
-        return pages
+        return [Page(kind.name.removeprefix("inspect_"), kind.title, tip, kind(*arguments)) for kind, tip in INSPECT]
 
     def focusNextPrevChild(self, forward: bool) -> bool:
         """Tab passes over the panels that lie behind others: Qt calls them visible, but nobody sees them."""
@@ -300,9 +301,7 @@ class MainWindow(QMainWindow):
         self.tracker.close()
         self.target.close()
         self.laboratory.stop()
-        for page in self._inspectors:
-            if isinstance(page, WorkspacePage):
-                page.close_worker()
+        self.docks.close_workers()
         geometry, layout = self.window_layout()
         self.preferences.keep_window_state("geometry", geometry)
         self.preferences.keep_window_state("layout", layout)

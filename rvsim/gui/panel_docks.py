@@ -88,6 +88,12 @@ class PanelDocks:
         self.show_panel(page.name)
         self.go_to(dock)
 
+    def close_workers(self) -> None:
+        """End the threads of all pages, for the window closes."""
+        for page in (page for dock in self.right for page in _pages_in(dock)):
+            if hasattr(page.widget, "close_worker"):
+                page.widget.close_worker()
+
     def show_panel(self, name: str) -> bool:
         """Bring the panel or page of that name to the front; whether there is one."""
         for dock in self.right:
@@ -100,6 +106,11 @@ class PanelDocks:
             dock.raise_()
             return True
         return False
+
+
+def _pages_in(dock: QDockWidget) -> tuple[Page, ...]:
+    pages = dock.widget()
+    return pages.pages if isinstance(pages, PageStack) else ()
 
 
 def takes_tab(widget: QWidget) -> bool:
