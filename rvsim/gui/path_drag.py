@@ -178,7 +178,8 @@ class PathDrag(QObject):
         gizmo = self._gizmo()
         items: tuple[Item, ...] = ()
         if gizmo is not None:
-            held = self._grip.handle.key if self._grip is not None else ""
+            # The arrow of the size has none of the axes' colours for a guide line: it stays among the others.
+            held = self._grip.handle.key if self._grip is not None and self._grip.handle.name != SIZE else ""
             items = gizmo_items(gizmo, self._stage.palette, self._lit, held, self._note())
         self._stage.set_layer(LAYER, items)
 

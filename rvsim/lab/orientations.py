@@ -143,8 +143,9 @@ def normal_gap(path: Path, normal: FloatArray) -> float:
     """The largest angle [rad] between the tool axis along a path and its plane's normal (3,), either way; 0 if free."""
     if path.rotations is None:
         return 0.0
-    cosine = np.abs(path.rotations[:, :, 2] @ (normal / np.linalg.norm(normal)))
-    return float(np.arccos(np.clip(cosine.min(), 0.0, 1.0)))
+    axes, unit = path.rotations[:, :, 2], normal / np.linalg.norm(normal)
+    sines = np.linalg.norm(np.cross(axes, unit), axis=1)
+    return float(np.arctan2(sines, np.abs(axes @ unit)).max())
 
 
 def _normal_of(points: FloatArray, normal: FloatArray | None) -> FloatArray:

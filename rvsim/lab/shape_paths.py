@@ -144,11 +144,11 @@ def _default_formulas(robot: Robot, middle: FloatArray, half: float) -> FormulaS
 
 def _default_points(_robot: Robot, middle: FloatArray, half: float) -> PointsShape:
     rows = ((-1, -1, 0), (1, -1, 0), (1, 0, 0), (-1, 1, 0), (1, 1, 0))
-    return PointsShape(np.round(middle + 0.3 * half * np.array(rows, dtype=np.float64), 6))
+    return PointsShape(np.round(middle + 0.3 * half * np.array(rows, dtype=np.float64), 3))
 
 
 def _default_arc_through(_robot: Robot, middle: FloatArray, half: float) -> ArcThroughShape:
-    return ArcThroughShape(np.round(middle + 0.5 * half * np.array([(0, -1, 0), (-0.6, 0, 0), (0, 1, 0)]), 6))
+    return ArcThroughShape(np.round(middle + 0.5 * half * np.array([(0, -1, 0), (-0.6, 0, 0), (0, 1, 0)]), 3))
 
 
 def _default_text(robot: Robot, _middle: FloatArray, half: float) -> TextShape:

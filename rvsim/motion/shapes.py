@@ -83,6 +83,11 @@ def polyline(knots: ArrayLike, samples: int) -> Drawing:
     if len(corners) < 2:
         return Drawing(corners, np.empty(0, dtype=np.intp))
     pieces = _shares(np.linalg.norm(np.diff(corners, axis=0), axis=1), samples - 1)
+    return _in_pieces(corners, pieces)
+
+
+def _in_pieces(corners: FloatArray, pieces: Sequence[int]) -> Drawing:
+    """Straight from corner to corner (k, d), each edge in so many equal pieces."""
     edges = [
         start + np.arange(count)[:, None] / count * (end - start)
         for start, end, count in zip(corners[:-1], corners[1:], pieces, strict=True)
@@ -181,8 +186,8 @@ def strokes(lines: Sequence[ArrayLike], spacing: float, lift: float) -> Drawing:
     pen_up: list[bool] = []
     for line in lines:
         flat = np.asarray(line, dtype=np.float64)
-        length = float(np.linalg.norm(np.diff(flat, axis=0), axis=1).sum())
-        drawn = polyline(flat, math.ceil(length / spacing) + 1)
+        edges = np.linalg.norm(np.diff(flat, axis=0), axis=1)
+        drawn = _in_pieces(flat, [max(math.ceil(edge / spacing - 1e-9), 1) for edge in edges])
         stroke = np.column_stack([drawn.points, np.zeros(len(drawn.points))])
         done = sum(map(len, points))
         if points:

@@ -78,7 +78,7 @@ class PathPointsModel(QAbstractTableModel):
             return _WHY.get(missed.kind, "outside the limits")
         shown = self._joint(tracking, tracking.robot.joint_names.index(missed.joint))
         needs, limit = (format_number(x * shown.factor, shown.decimals) for x in (missed.value, missed.limit))
-        return f"{missed.joint} would need {needs}{shown.suffix}, its limit is {limit}{shown.suffix}"
+        return f"{missed.joint}: {needs}{shown.suffix} needed, limit {limit}{shown.suffix}"
 
     def _length(self, tracking: Tracking) -> Display:
         return display(length_kind(tracking.robot), self._preferences)
@@ -105,10 +105,12 @@ class PathPointsDialog(QDialog):
         super().__init__(parent)
         self.setObjectName("path_points_dialog")
         self.setWindowTitle("Points of the path")
-        self.resize(760, 460)
+        self.resize(820, 460)
         self._session = session
         self.model = PathPointsModel(preferences, self)
         self.table = plain_table("tracked_points_table", "Points of the path and what came of them", self.model)
+        self.table.setWordWrap(False)
+        self.table.verticalHeader().setDefaultSectionSize(self.table.fontMetrics().height() + 8)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.table.selectionModel().currentRowChanged.connect(lambda now, _before: self._go(now.row()))
@@ -130,9 +132,8 @@ class PathPointsDialog(QDialog):
         self.model.show_tracking(tracking)
         columns = self.table.horizontalHeader()
         for section in range(self.model.columnCount()):
-            stretched = section == 4
-            mode = QHeaderView.ResizeMode.Stretch if stretched else QHeaderView.ResizeMode.ResizeToContents
-            columns.setSectionResizeMode(section, mode)
+            columns.setSectionResizeMode(section, QHeaderView.ResizeMode.ResizeToContents)
+        columns.setStretchLastSection(False)
         self.copy.setEnabled(tracking is not None)
         self.note.setText(
             "Nothing is tracked at present."
