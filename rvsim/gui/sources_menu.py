@@ -1,0 +1,61 @@
+"""The menu of the sources: every experiment of each, and the table of all their numbers."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from PySide6.QtWidgets import QMenu
+
+from rvsim.gui.sources_dialog import sources_dialog
+from rvsim.gui.sources_show import show_experiment
+from rvsim.lab.sources.experiment import SourceExperiment
+from rvsim.lab.sources.experiments import SOURCE_TITLES, experiments
+
+if TYPE_CHECKING:
+    from rvsim.gui.main_window import MainWindow
+
+KEYS = "Ctrl+Shift+O"
+
+
+def make_sources_menu(window: MainWindow) -> QMenu:
+    """ "All experiments…" and a menu a source; an entry sets the window up for its experiment."""
+    menu = QMenu("&Sources", window)
+    menu.setObjectName("sources_menu")
+    menu.setToolTipsVisible(True)
+    every = menu.addAction("All experiments…")
+    every.setObjectName("action_all_experiments")
+    every.setShortcut(KEYS)
+    every.setStatusTip("Every number that the sources print, what its formula gives, and what is right")
+    every.triggered.connect(lambda _checked=False: sources_dialog(window).show_source(""))
+    menu.addSeparator()
+    for source, title in SOURCE_TITLES.items():
+        menu.addMenu(_menu_of(window, source, title))
+    return menu
+
+
+def _menu_of(window: MainWindow, source: str, title: str) -> QMenu:
+    menu = QMenu(f"{source}  {title}", window)
+    menu.setObjectName(f"source_{source}_menu")
+    menu.setToolTipsVisible(True)
+    table = menu.addAction("Its numbers…")
+    table.setObjectName(f"action_source_{source}_numbers")
+    table.setStatusTip(f"The numbers of source {source} as a table")
+    table.triggered.connect(lambda _checked=False: sources_dialog(window).show_source(source))
+    menu.addSeparator()
+    for experiment in experiments():
+        if experiment.source == source:
+            _add(menu, window, experiment)
+    return menu
+
+
+def _add(menu: QMenu, window: MainWindow, experiment: SourceExperiment) -> None:
+    action = menu.addAction(f"{experiment.item}: {experiment.title}".replace("&", "&&"))
+    action.setObjectName(f"action_experiment_{experiment.key}")
+    action.setStatusTip(experiment.shows)
+    action.setToolTip(experiment.shows)
+    action.triggered.connect(partial(_show, window, experiment))
+
+
+def _show(window: MainWindow, experiment: SourceExperiment, _checked: bool = False) -> None:
+    show_experiment(window, experiment)

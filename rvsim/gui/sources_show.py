@@ -1,0 +1,69 @@
+"""Sets the window up so that an experiment of a source can be seen."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rvsim.gui.panels.inspect_forces import ForcesPage, Pull
+from rvsim.gui.panels.inspect_source import SourcePage
+from rvsim.gui.widgets import select
+from rvsim.lab.sources.experiment import Setup, SourceExperiment
+from rvsim.motion.trajectory import joint_move
+from rvsim.robot import Robot
+from rvsim.robot.robot import NO_TOOL
+
+if TYPE_CHECKING:
+    from rvsim.gui.main_window import MainWindow
+
+
+def show_experiment(window: MainWindow, experiment: SourceExperiment) -> None:
+    """Take its arm, its pose and its tasks as one undo step, bring its panel to the front, and let it run."""
+    window.motion.pause()
+    _set_up(window, experiment)
+    setup = experiment.setup
+    window.session.say(f"Source {experiment.source}, {experiment.item}: {experiment.shows}")
+    _prepare_pages(window, setup)
+    window.docks.show_panel(setup.panel)
+    _run(window, setup, f"Source {experiment.source}, {experiment.item}")
+
+
+def _set_up(window: MainWindow, experiment: SourceExperiment) -> None:
+    session, stack = window.session, window.session.undo_stack
+    stack.beginMacro(f"Show source {experiment.source}, {experiment.item}")
+    session.use_robot(_bare(window.library[experiment.robot]))
+    session.edit("Set up", experiment.setup.applied(session.experiment))
+    stack.endMacro()
+
+
+def _bare(robot: Robot) -> Robot:
+    """The arm without a tool, as the sources have it."""
+    return robot if robot.tool_name == NO_TOOL.name else replace(robot, tool_name=NO_TOOL.name)
+
+
+def _prepare_pages(window: MainWindow, setup: Setup) -> None:
+    source, forces = window.findChild(SourcePage), window.findChild(ForcesPage)
+    if setup.erratum and source is not None:
+        source.choose(setup.erratum)
+    if setup.pull is not None and forces is not None:
+        forces.pull = Pull(np.array(setup.pull.wrench), setup.pull.axes)
+        select(forces.axes, setup.pull.axes)
+        forces.refresh()
+    if setup.lab:
+        pages = window.laboratory
+        pages.pages.setCurrentWidget(pages.source_002 if setup.lab == "source 002" else pages.contest)
+
+
+def _run(window: MainWindow, setup: Setup, text: str) -> None:
+    tracks = {"line": window.tracker.track_line, "trajectory": window.tracker.track_trajectory}
+    if setup.track:
+        tracks[setup.track]()
+    if setup.move is not None:
+        session = window.session
+        window.tracker.clear()
+        move = joint_move(session.robot, session.q, setup.move.end, seconds=setup.move.seconds, law=setup.move.law)
+        window.preferences.set("show_plots", True)
+        window.motion.load(move, text)
+        window.motion.play()

@@ -1,0 +1,79 @@
+"""The rows of the reproduction in words, and as tables to paste elsewhere."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Sequence
+
+from rvsim.lab.sources.experiment import SourceExperiment
+from rvsim.lab.sources.figures import MINUS, Numbers, shown_value
+from rvsim.lab.sources.reproduce import Reproduction
+from rvsim.lab.texts import number_text
+
+COLUMNS = ("Source", "Item", "Printed", "Its formula", "Right", "Verdict")
+VERDICTS = {
+    "confirmed": "The source is right here.",
+    "misprint": "The printed formula is not right.",
+    "contradiction": "The source contradicts itself.",
+    "undefined": "The printed formula has no value here.",
+    "ignored": "What the source asks for is not used.",
+    "outside limits": "The source's own limits do not allow it.",
+    "partly reached": "The arm reaches only some of the points.",
+    "cannot be reached": "The arm reaches none of it.",
+    "computed": "The source prints no number; this is ours.",
+}
+_LATEX = {
+    "&": r"\&", "%": r"\%", "_": r"\_", MINUS: "$-$", "°": r"$^\circ$", "²": "$^2$", "“": "``", "”": "''", "–": "--",
+    "θ\u0308": r"$\ddot\theta$", "α": r"$\alpha$", "β": r"$\beta$", "γ": r"$\gamma$", "θ": r"$\theta$",
+    "Ĵ": r"$\hat{J}$", "∂": r"$\partial$",
+}  # fmt: skip
+_SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+
+
+def shown_cells(row: Reproduction) -> tuple[str, ...]:
+    """The texts of `COLUMNS`; an empty one where the source has no such number."""
+    return (row.source, row.item, _shown(row.printed), _shown(row.formula), shown_value(row.ours), row.verdict)
+
+
+def row_sentence(row: Reproduction, experiment: SourceExperiment) -> str:
+    """All that there is to say about a row."""
+    numbers = (("Printed", row.printed), ("its formula gives", row.formula), ("right is", row.ours))
+    said = ", ".join(f"{name} {shown_value(value)}" for name, value in numbers if value is not None)
+    return f"{experiment.title}. {row.item}: {said[:1].lower()}{said[1:]}. {VERDICTS[row.verdict]} {experiment.shows}"
+
+
+def reproduction_csv(rows: Sequence[Reproduction]) -> str:
+    """A line each, with a header; several numbers of a cell are separated by spaces, in full precision."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for row in rows:
+        numbers = (_plain(value) for value in (row.printed, row.formula, row.ours))
+        writer.writerow((row.source, row.item, *numbers, row.verdict))
+    return text.getvalue()
+
+
+def reproduction_latex(rows: Sequence[Reproduction]) -> str:
+    r"""A `longtable` with the rules of booktabs."""
+    head = " & ".join(COLUMNS)
+    lines = [" & ".join(_latex(cell) for cell in shown_cells(row)) + r" \\" for row in rows]
+    begin = [r"\begin{longtable}{lp{5cm}rrrl}", r"\toprule", rf"{head} \\", r"\midrule"]
+    return "\n".join([*begin, *lines, r"\bottomrule", r"\end{longtable}"])
+
+
+def _shown(value: Numbers | None) -> str:
+    return "" if value is None else shown_value(value)
+
+
+def _plain(value: Numbers | None) -> str:
+    if value is None:
+        return ""
+    return " ".join(map(number_text, value if isinstance(value, tuple) else (value,)))
+
+
+def _latex(text: str) -> str:
+    for written, latex in _LATEX.items():
+        text = text.replace(written, latex)
+    return re.sub("[₀-₉]+", lambda found: f"$_{{{found[0].translate(_SUBSCRIPTS)}}}$", text)
