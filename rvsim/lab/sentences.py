@@ -64,7 +64,8 @@ def short_sentence(tracking: Tracking) -> str:
 
 def reasons(tracking: Tracking, units: Units = _DEFAULT) -> tuple[str, ...]:
     """One clause for each stretch of points that failed for the same reason; points are counted from 1."""
-    return tuple(f"{_which(group)}: {_why(tracking.robot, group, units)}" for group in _groups(tracking.unreached))
+    groups = _groups(tracking.unreached)
+    return tuple(f"{_which(group)}: {stretch_reason(tracking.robot, group, units)}" for group in groups)
 
 
 def deviation_sentence(tracking: Tracking, units: Units = _DEFAULT) -> str:
@@ -158,7 +159,8 @@ def _which(group: list[Unreached]) -> str:
     return f"point {first}" if first == last else f"points {first}–{last}"
 
 
-def _why(robot: Robot, group: list[Unreached], units: Units) -> str:
+def stretch_reason(robot: Robot, group: list[Unreached], units: Units) -> str:
+    """Why neighbouring points were missed that failed for the same reason, as a clause."""
     point = group[0]
     if point.kind == "reach":
         return "out of reach in any orientation"

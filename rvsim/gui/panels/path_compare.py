@@ -1,0 +1,217 @@
+"""The Compare page: the same path by the closed form and by each numeric solver in one table (source 000)."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
+
+from rvsim.errors import RvsimError
+from rvsim.experiment import Experiment
+from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.panels.copying import CopyButton
+from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.panels.inspect_page import InspectPage
+from rvsim.gui.panels.path_parts_worker import PartsWorker
+from rvsim.gui.panels.path_rows import RowsModel, TextRow, as_csv, as_text, rows_table
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import display, format_scientific, length_kind
+from rvsim.gui.session import Session
+from rvsim.gui.stage import Stage
+from rvsim.gui.tracker import PathTracker
+from rvsim.gui.widgets import button, column_of, scrolled
+from rvsim.lab.repairs import path_of
+from rvsim.motion import Path
+from rvsim.motion.compare import Entry, comparison
+from rvsim.robot import Robot
+
+_INTRO = (
+    "The path of the Path page by the closed form with the best sequence of branches, and by each numeric solver, "
+    "started at every point in its last solution. Source 000 sets out to compare these."
+)
+_SHORT = {"closed form": "Closed form", "newton": "Newton", "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
+_COPY_HEADS = (
+    "method", "total_s", "per_point_s", "rms_m", "largest_m", "largest_rotation_rad", "success", "jumps", "iterations",
+)  # fmt: skip
+
+
+class ComparePage(InspectPage):
+    """A button, a table that fills row by row, and what the rows mean."""
+
+    title = "Compare"
+    name = "path_compare"
+
+    def __init__(
+        self,
+        session: Session,
+        preferences: Preferences,
+        stage: Stage,
+        tracker: PathTracker,
+        motion: MotionControl,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(session, preferences, stage, parent)
+        self._tracker, self._motion = tracker, motion
+        self.entries: list[Entry] = []
+        self._coming: list[Entry] = []
+        self._of: tuple[Robot, Path] | None = None  # what the entries are of
+        self._asked: tuple[Robot, Path] | None = None
+        self.worker = PartsWorker(self)
+        self.worker.part.connect(self._on_part)
+        self.worker.done.connect(self._on_done)
+        self.model = RowsModel(self._heads(session.robot))
+        self._make_widgets()
+        self._lay_out()
+        self._show_busy(False)
+
+    def close_worker(self) -> None:
+        """End the thread, for the window closes."""
+        self.worker.close()
+
+    def _make_widgets(self) -> None:
+        self.table = rows_table("compare_table", "Methods", self.model)
+        tip = "Track the present path by every method; it takes about a second for a few hundred points"
+        self.run_button = button("compare_run_button", "Compare", tip, self.start, primary=True)
+        self.cancel_button = button("compare_cancel_button", "Cancel", "Give up; the old table stays", self.cancel)
+        self.progress = QProgressBar()
+        self.progress.setObjectName("compare_progress")
+        self.progress.setTextVisible(False)
+        self.progress.setFixedHeight(8)
+        self.intro, self.verdict = wrapped_label("muted"), wrapped_label()
+        self.intro.setText(_INTRO)
+        self.verdict.setObjectName("compare_verdict")
+        formats = {"text": partial(self._copied, as_text), "CSV": partial(self._copied, as_csv)}
+        self.copy = CopyButton("compare_copy", "the comparison", formats, self._session)
+
+    def _lay_out(self) -> None:
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(10, 8, 10, 8)
+        column.setSpacing(8)
+        column.addWidget(self.intro)
+        row = QHBoxLayout()
+        for widget in (self.run_button, self.cancel_button):
+            row.addWidget(widget)
+        row.addWidget(self.progress, 1)
+        row.addWidget(self.copy)
+        column.addLayout(row)
+        column.addWidget(self.table)
+        column.addWidget(self.verdict)
+        column.addStretch(1)
+        column_of(self, scrolled(inside))
+
+    # --- working -----------------------------------------------------------------------------------------------------
+
+    def start(self) -> None:
+        """Compare on the path that the Path page has."""
+        experiment = self._session.experiment
+        try:
+            path = self._path(experiment)
+        except (RvsimError, OSError) as problem:
+            self._session.say(str(problem), "error")
+            return
+        self._coming, self._asked = [], (experiment.robot, path)
+        self._show_busy(True)
+        ignore = experiment.ignore_limits
+        self.worker.start(partial(comparison, experiment.robot, path, near=experiment.q, ignore_limits=ignore))
+
+    def _path(self, experiment: Experiment) -> Path:
+        tracking = self._session.tracking
+        return path_of(self._tracker.kind, experiment) if tracking is None else tracking.path
+
+    def cancel(self) -> None:
+        """Give up; the old table stays."""
+        self.worker.cancel()
+        self._show_busy(False)
+
+    def _on_part(self, part: Entry | float) -> None:
+        if isinstance(part, Entry):
+            self._coming.append(part)
+        else:
+            self.progress.setValue(round(100.0 * part))
+
+    def _on_done(self) -> None:
+        self.entries, self._of = self._coming, self._asked
+        self._show_busy(False)
+        self.refresh()
+
+    def _show_busy(self, busy: bool) -> None:
+        self.run_button.setVisible(not busy)
+        self.cancel_button.setVisible(busy)
+        self.progress.setRange(0, 100)
+        self.progress.setValue(0)
+        policy = self.progress.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)
+        self.progress.setSizePolicy(policy)
+        self.progress.setVisible(busy)
+        self.copy.setEnabled(bool(self.entries))
+
+    # --- showing -----------------------------------------------------------------------------------------------------
+
+    def refresh(self) -> None:
+        """The last comparison in the present units."""
+        robot = self._session.robot if self._of is None else self._of[0]
+        factor = display(length_kind(robot), self._preferences).factor
+        rows = [TextRow(_texts(entry, factor), _tip(entry)) for entry in self.entries]
+        self.model.show_rows(rows, self._heads(robot))
+        self.table.setVisible(bool(rows))
+        self.verdict.setText(self._verdict() if self._of else "")
+        self.copy.setEnabled(bool(rows))
+
+    def concerns(self, before: Experiment, after: Experiment) -> bool:
+        """Only another arm: the table is of a path, not of a pose."""
+        return after.robot is not before.robot
+
+    def _heads(self, robot: Robot) -> tuple[tuple[str, str], ...]:
+        unit = display(length_kind(robot), self._preferences).suffix.strip()
+        return (
+            ("method", "The closed form, or the numeric solver"),
+            ("ms", "Time for all points, in milliseconds"),
+            ("µs/pt", "Time for a point, in microseconds"),
+            (f"max {unit}", "The largest position error over the points found"),
+            ("found", "For how many of the points joints were found"),
+            ("jumps", "How often the arm leaves the path to change its branch"),
+        )
+
+    def _verdict(self) -> str:
+        """Who is how much quicker, and of which path and arm the table is."""
+        assert self._of is not None
+        robot, path = self._of
+        what = f"{robot.title}, {path.title or path.name}, {path.samples} points."
+        closed = [entry for entry in self.entries if entry.contestant.solver is None]
+        others = [entry for entry in self.entries if entry.contestant.solver is not None]
+        if not closed or not others or closed[0].seconds <= 0.0:
+            return f"{what} This arm has no closed form."
+        nearest = min(others, key=lambda entry: entry.seconds)
+        times = nearest.seconds / closed[0].seconds
+        name = nearest.contestant.title
+        return f"{what} The closed form is {times:.3g} times as quick as the quickest of the others ({name})."
+
+    def _copied(self, form: object) -> str:
+        assert callable(form)
+        return str(form(_COPY_HEADS, [_exact(entry) for entry in self.entries]))
+
+
+def _texts(entry: Entry, factor: float) -> tuple[str, ...]:
+    milliseconds = 1e3 * entry.seconds
+    return (
+        _SHORT.get(entry.contestant.name, "Source 000"),
+        f"{milliseconds:.1f}" if milliseconds < 100.0 else f"{milliseconds:.0f}",
+        f"{1e6 * entry.seconds_per_point:.0f}",
+        "–" if math.isnan(entry.largest) else format_scientific(entry.largest * factor),
+        f"{100.0 * entry.success:.0f} %",
+        str(len(entry.jumps)),
+    )
+
+
+def _tip(entry: Entry) -> str:
+    tried = "" if entry.iterations is None else f", {entry.iterations} iterations in all"
+    turned = "" if math.isnan(entry.largest_rotation) else f"; orientation within {entry.largest_rotation:.1e} rad"
+    return f"{entry.contestant.title}{tried}: RMS {entry.rms:.1e} m, at most {entry.largest:.1e} m{turned}."
+
+
+def _exact(entry: Entry) -> tuple[str, ...]:
+    numbers = (entry.seconds, entry.seconds_per_point, entry.rms, entry.largest, entry.largest_rotation, entry.success)
+    counts = (len(entry.jumps), "" if entry.iterations is None else entry.iterations)
+    return entry.contestant.title.replace(",", ""), *(f"{value:.9g}" for value in numbers), *map(str, counts)

@@ -1,0 +1,139 @@
+"""What the check of a path found, as sentences: a symbol and a word for how grave it is, then what, where and why."""
+
+from __future__ import annotations
+
+import math
+
+from rvsim.lab.sentences import Units, joint_amount, length_number, stretch_reason
+from rvsim.motion.honesty import Finding, FindingKind, Report, Severity
+from rvsim.robot import Robot
+
+SYMBOLS: dict[Severity, str] = {"good": "✓", "warning": "▲", "bad": "✗"}
+WORDS: dict[FindingKind, str] = {
+    "reach": "Reach",
+    "missed": "Missed",
+    "jump": "Jump",
+    "speed": "Speed",
+    "acceleration": "Acceleration",
+    "singular": "Singularity",
+    "table": "Table",
+    "own": "Itself",
+}
+_RATES = {"speed": "/s", "acceleration": "/s²"}
+
+
+def finding_sentence(report: Report, finding: Finding, units: Units) -> str:
+    """A sentence about one finding."""
+    return {
+        "reach": _reach,
+        "missed": _missed,
+        "jump": _jump,
+        "speed": _rate,
+        "acceleration": _rate,
+        "singular": _singular,
+        "table": _table,
+        "own": _own,
+    }[finding.kind](report, finding, units)
+
+
+def summary_sentence(report: Report) -> str:
+    """The verdict on all of it."""
+    worst = sum(finding.severity == "bad" for finding in report.findings)
+    if report.severity == "good":
+        return "Nothing speaks against running it."
+    if not worst:
+        return "It can be run; mind the warnings."
+    return "Not as it is: one thing is wrong." if worst == 1 else f"Not as it is: {worst} things are wrong."
+
+
+def where_words(finding: Finding) -> str:
+    """Which points: "point 7", "points 7–9", "on the way to the path"."""
+    if finding.index is None:
+        return "on the way to the path"
+    last = finding.index if finding.last is None else finding.last
+    if last == finding.index:
+        return f"at point {last + 1}"
+    return f"points {finding.index + 1}–{last + 1}"
+
+
+def link_name(robot: Robot, link: int) -> str:
+    """ "the base", "link 3 (behind the elbow)"."""
+    if link == 0:
+        return "the base"
+    name = robot.joint_names[link - 1]
+    return f"link {link} (behind {'the ' if name.replace(' ', '').isalpha() else ''}{name})"
+
+
+def _reach(report: Report, finding: Finding, _units: Units) -> str:
+    tracking = report.tracking
+    count = f"{tracking.reached_count} of {tracking.samples} points reached"
+    return f"{'All' if tracking.complete else f'{100.0 * finding.value:.0f} %'}: {count}."
+
+
+def _missed(report: Report, finding: Finding, units: Units) -> str:
+    where = where_words(finding).removeprefix("at ")
+    return f"{where[0].upper()}{where[1:]}: {stretch_reason(report.robot, list(finding.points), units)}."
+
+
+def _jump(_report: Report, finding: Finding, _units: Units) -> str:
+    assert finding.index is not None
+    lifted = " with the pen lifted" if finding.severity == "good" else "; the tool leaves the path there"
+    return f"From point {finding.index + 1} to {finding.index + 2} the arm changes its branch{lifted}."
+
+
+def _rate(report: Report, finding: Finding, units: Units) -> str:
+    assert finding.joint is not None
+    joint = f"{report.robot.joint_names[finding.joint]} {where_words(finding)}"
+    value, limit = (_rate_text(report.robot, finding, value, units) for value in (finding.value, finding.limit))
+    source = "assumed " if finding.assumed else ""
+    share = 100.0 * finding.value / finding.limit
+    return f"At most {share:.0f} %: {joint}, {value} of the {source}{limit}."
+
+
+def _rate_text(robot: Robot, finding: Finding, value: float, units: Units) -> str:
+    assert finding.joint is not None
+    text = joint_amount(robot, robot.joint_names[finding.joint], value, units)
+    return f"{text}{_RATES[finding.kind]}"
+
+
+def _singular(_report: Report, finding: Finding, _units: Units) -> str:
+    numbers = f"σ min is at least {_number(finding.value)}, {_number(finding.limit)} of σ max, {where_words(finding)}"
+    family = f": the {finding.family} singularity" if finding.family else ""
+    close = {"good": "", "warning": "; close", "bad": "; as good as singular"}[finding.severity]
+    return f"{numbers}{close}{family}."
+
+
+def _number(value: float) -> str:
+    if value < 1e-12:
+        return "0"
+    if value >= 1e-3:
+        return f"{value:.3g}"
+    exponent = math.floor(math.log10(value))
+    return f"{value / 10.0**exponent:.1f}·10{str(exponent).translate(_SUPERSCRIPT)}"
+
+
+_SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def _table(report: Report, finding: Finding, units: Units) -> str:
+    link = link_name(report.robot, finding.links[0])
+    if finding.value < 0.0:
+        return f"{_capital(link)} is {_length(report.robot, -finding.value, units)} below it {where_words(finding)}."
+    return f"At least {_length(report.robot, finding.value, units)} above it: {link}, {where_words(finding)}."
+
+
+def _own(report: Report, finding: Finding, units: Units) -> str:
+    one, other = (link_name(report.robot, link) for link in finding.links)
+    if finding.value < 0.0:
+        return f"{_capital(one)} meets {other} {where_words(finding)}."
+    distance = _length(report.robot, finding.value, units)
+    return f"At least {distance} between {one} and {other}, {where_words(finding)}."
+
+
+def _length(robot: Robot, length: float, units: Units) -> str:
+    value, unit = length_number(robot, length, units)
+    return f"{value:.0f} {unit}" if unit == "mm" and value >= 10.0 else f"{value:.3g} {unit}"
+
+
+def _capital(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}"
