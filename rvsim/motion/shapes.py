@@ -20,10 +20,13 @@ _TIP_UP = 0.5 * math.pi  # the first corner of a polygon or star points along y
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """A curve of points (m, d), the indices of its corners (c,), and where the pen is up on the way to a point (m,)."""
+    """A curve of points (m, d), the indices of its corners (c,), and where the pen is up on the way to a point (m,).
+
+    Corners None are for whoever follows it to find: a spline can turn as sharply as any corner.
+    """
 
     points: FloatArray
-    corners: NDArray[np.intp]
+    corners: NDArray[np.intp] | None
     pen_up: NDArray[np.bool_] | None = None
 
 
@@ -83,16 +86,16 @@ def polyline(knots: ArrayLike, samples: int) -> Drawing:
     if len(corners) < 2:
         return Drawing(corners, np.empty(0, dtype=np.intp))
     pieces = _shares(np.linalg.norm(np.diff(corners, axis=0), axis=1), samples - 1)
-    return _in_pieces(corners, pieces)
+    return Drawing(*_in_pieces(corners, pieces))
 
 
-def _in_pieces(corners: FloatArray, pieces: Sequence[int]) -> Drawing:
-    """Straight from corner to corner (k, d), each edge in so many equal pieces."""
+def _in_pieces(corners: FloatArray, pieces: Sequence[int]) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Straight from corner to corner (k, d), each edge in so many equal pieces: points, and where the corners are."""
     edges = [
         start + np.arange(count)[:, None] / count * (end - start)
         for start, end, count in zip(corners[:-1], corners[1:], pieces, strict=True)
     ]
-    return Drawing(np.concatenate([*edges, corners[-1:]]), np.cumsum(pieces)[:-1].astype(np.intp))
+    return np.concatenate([*edges, corners[-1:]]), np.cumsum(pieces)[:-1].astype(np.intp)
 
 
 def _shares(lengths: FloatArray, pieces: int) -> list[int]:
@@ -121,10 +124,10 @@ def spline_curve(knots: ArrayLike, samples: int, ends: str = "natural") -> Drawi
     if len(known) < 2:
         raise ShapeError("spline knots", "(at least 2 different ones, …)", known.shape)
     if ends == "closed" and len(known) > 2:
-        return _smooth(_closed_spline(known, samples))
+        return Drawing(_closed_spline(known, samples), None)
     x = _chords(known)
     slopes = knot_slopes(x, known, "not-a-knot" if ends == "not-a-knot" and len(known) > 3 else "natural")
-    return _smooth(_hermite(x, known, slopes, np.linspace(0.0, x[-1], max(samples, 2))))
+    return Drawing(_hermite(x, known, slopes, np.linspace(0.0, x[-1], max(samples, 2))), None)
 
 
 def _closed_spline(known: FloatArray, samples: int) -> FloatArray:
@@ -187,29 +190,29 @@ def strokes(lines: Sequence[ArrayLike], spacing: float, lift: float) -> Drawing:
     for line in lines:
         flat = np.asarray(line, dtype=np.float64)
         edges = np.linalg.norm(np.diff(flat, axis=0), axis=1)
-        drawn = _in_pieces(flat, [max(math.ceil(edge / spacing - 1e-9), 1) for edge in edges])
-        stroke = np.column_stack([drawn.points, np.zeros(len(drawn.points))])
+        drawn, bends = _in_pieces(flat, [max(math.ceil(edge / spacing - 1e-9), 1) for edge in edges])
+        stroke = np.column_stack([drawn, np.zeros(len(drawn))])
         done = sum(map(len, points))
         if points:
-            hop = _hop(points[-1][-1], stroke[0], spacing, lift)
-            corners += [done - 1, *(done + hop.corners).tolist()]
-            points.append(hop.points)
-            pen_up += [True] * len(hop.points)
-            done += len(hop.points)
+            hop, turns = _hop(points[-1][-1], stroke[0], spacing, lift)
+            corners += [done - 1, *(done + turns).tolist()]
+            points.append(hop)
+            pen_up += [True] * len(hop)
+            done += len(hop)
             corners.append(done)
-        corners += (done + drawn.corners[_sharp(stroke, drawn.corners)]).tolist()
+        corners += (done + bends[_sharp(stroke, bends)]).tolist()
         points.append(stroke)
         pen_up += [len(points) > 1, *([False] * (len(stroke) - 1))]
     return Drawing(np.concatenate(points), np.array(corners, dtype=np.intp), np.array(pen_up))
 
 
-def _hop(start: FloatArray, end: FloatArray, spacing: float, lift: float) -> Drawing:
-    """Up, across and down again, without the two ends; its corners are the two places where it turns."""
+def _hop(start: FloatArray, end: FloatArray, spacing: float, lift: float) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Up, across and down again, without the two ends; and the two places where it turns."""
     up = np.array([0.0, 0.0, lift])
     knots = np.array([start, start + up, end + up, end])
-    across = math.ceil(float(np.linalg.norm(end - start)) / (4.0 * spacing)) if lift else 1
-    whole = polyline(knots, max(across + 2 * math.ceil(lift / (2.0 * spacing)), 3) + 1)
-    return Drawing(whole.points[1:-1], whole.corners - 1)
+    edges = np.linalg.norm(np.diff(knots, axis=0), axis=1)
+    points, turns = _in_pieces(knots, [max(math.ceil(edge / (3.0 * spacing)), 1) for edge in edges])
+    return points[1:-1], turns - 1
 
 
 def _sharp(points: FloatArray, corners: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -79,7 +79,7 @@ class ResultSection(QGroupBox):
         if self._table is None:
             self._table = PathPointsDialog(self._session, self._preferences, self)
         self._table.show()
-        self._table.raise_()
+        self._table.activateWindow()
 
     def show_busy(self, busy: bool) -> None:
         """Show that a long path is being worked out; the old result stays in sight."""

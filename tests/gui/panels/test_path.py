@@ -21,7 +21,8 @@ def panel(session_with, preferences, shown) -> Iterator[PathPanel]:
     session = session_with("rv-m1")
     motion = MotionControl(session, preferences, session)
     tracker = PathTracker(session, motion, session)
-    yield shown(PathPanel(session, preferences, tracker))
+    made = shown(PathPanel(session, preferences, tracker))
+    yield made
     tracker.close()
 
 
