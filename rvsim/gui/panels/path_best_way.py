@@ -1,0 +1,158 @@
+"""The section "Best way to": all ways to a pose, the best first, and a button to go the chosen one."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtWidgets import QGroupBox, QHBoxLayout, QVBoxLayout
+
+from rvsim.errors import RvsimError
+from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.panels.path_rows import RowsModel, TextRow, rows_table
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import format_quantity, joint_kind, length_kind
+from rvsim.gui.session import Session
+from rvsim.gui.widgets import button, combo, select
+from rvsim.kinematics import forward_kinematics
+from rvsim.motion.best_way import Criterion, Way, best_ways
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+_CRITERIA = {"quickest": "Quickest", "least motion": "Least motion"}
+_HOME, _TARGET = "Home", "The tool's target"
+_HEADS = (
+    ("branch", "The branch of the inverse kinematics at the end"),
+    ("s", "Time of the quickest law, in seconds"),
+    ("motion", "Length of the way of all joints together; a slide across the arm counts as half a turn"),
+    ("clear", "The least distance from the table and from itself on the way; ✗ where they meet"),
+)
+
+
+class BestWaySection(QGroupBox):
+    """Works when it is asked: "Find" fills the table, "Go" plays the chosen row."""
+
+    def __init__(self, session: Session, preferences: Preferences, motion: MotionControl) -> None:
+        super().__init__("Best way to")
+        self._session, self._preferences, self._motion = session, preferences, motion
+        self.ways: tuple[Way, ...] = ()
+        self._robot: Robot | None = None
+        self._name = ""
+        self.target = combo("best_way_target", "Where the arm is to go")
+        self.criterion = combo("best_way_criterion", "What is best", _CRITERIA)
+        self.criterion.activated.connect(lambda _: self.search())
+        self.find_button = button("best_way_find", "Find", "Try every branch and every time law", self.search)
+        self.go_button = button("best_way_go", "Go", "Go the chosen way; one undo step leads back", self.go)
+        self.model = RowsModel(_HEADS)
+        self.table = rows_table("best_way_table", "Ways", self.model)
+        self.table.selectionModel().currentRowChanged.connect(lambda *_: self._tell())
+        self.sentence = wrapped_label()
+        self.sentence.setObjectName("best_way_sentence")
+        first, second = QHBoxLayout(), QHBoxLayout()
+        first.addWidget(self.target, 1)
+        first.addWidget(self.find_button)
+        second.addWidget(self.criterion, 1)
+        second.addWidget(self.go_button)
+        column = QVBoxLayout(self)
+        for part in (first, second):
+            column.addLayout(part)
+        column.addWidget(self.table)
+        column.addWidget(self.sentence)
+        self._show()
+
+    def refresh(self) -> None:
+        """Another pose, arm or list of poses: what was found before starts somewhere else."""
+        experiment = self._session.experiment
+        names = (_HOME, *(pose.name for pose in experiment.poses), _TARGET)
+        if names != tuple(self.target.itemText(row) for row in range(self.target.count())):
+            chosen = self.target.currentData()
+            self.target.clear()
+            for name in names:
+                self.target.addItem(name, name)
+            select(self.target, chosen if chosen in names else _HOME)
+        if self.ways and (experiment.robot is not self._robot or self._stale()):
+            self.ways = ()
+            self._show()
+
+    def _stale(self) -> bool:
+        """Whether the arm has left the place from which the ways begin, other than on one of them."""
+        trajectory = self._motion.player.trajectory
+        on_its_way = any(trajectory is move for way in self.ways for move in way.moves.values())
+        begin = next((move.q(0.0) for way in self.ways for move in way.moves.values()), None)
+        return not on_its_way and (begin is None or bool((begin != self._session.q).any()))
+
+    def search(self) -> None:
+        """Fill the table."""
+        experiment = self._session.experiment
+        self._robot, self._name = experiment.robot, self.target.currentData()
+        criterion: Criterion = self.criterion.currentData()
+        try:
+            self.ways = best_ways(
+                experiment.robot, experiment.q, self._goal(), criterion, ignore_limits=experiment.ignore_limits
+            )
+        except RvsimError as problem:
+            self._session.say(str(problem), "error")
+            return
+        self._show()
+        if not self.ways:
+            self.sentence.setText("The arm cannot be there in any branch.")
+        elif self.ways[0].possible:
+            self.table.selectRow(0)
+
+    def _goal(self) -> FloatArray:
+        """(4, 4) where the tool is to be."""
+        experiment, name = self._session.experiment, self.target.currentData()
+        if name == _TARGET:
+            T = experiment.target
+            return forward_kinematics(experiment.robot, experiment.q) if T is None else T
+        known = {pose.name: pose.q for pose in experiment.poses}
+        return forward_kinematics(experiment.robot, known.get(name, experiment.robot.home))
+
+    def go(self) -> None:
+        """Play the chosen way."""
+        way = self._chosen()
+        if way is not None and way.possible:
+            self._motion.load(way.moves[way.law], f"Best way to {self._name}")
+            self._motion.play()
+
+    def _chosen(self) -> Way | None:
+        row = self.table.currentIndex().row()
+        return self.ways[row] if 0 <= row < len(self.ways) else None
+
+    def _show(self) -> None:
+        robot = self._session.robot
+        self.model.show_rows([TextRow(self._texts(robot, way), way.label, way.possible) for way in self.ways])
+        self.table.setVisible(bool(self.ways))
+        self._tell()
+
+    def _texts(self, robot: Robot, way: Way) -> tuple[str, ...]:
+        seconds = f"{way.seconds:.2f}" if way.possible else "limits"
+        motion = format_quantity(way.motion, "angle", self._preferences)
+        return _short(way.label), seconds, motion, self._clear(robot, way)
+
+    def _clear(self, robot: Robot, way: Way) -> str:
+        nearest = min(way.table, way.own)
+        if nearest < 0.0:
+            return "✗ table" if way.table < 0.0 else "✗ itself"
+        return "✓" if math.isinf(nearest) else f"✓ {format_quantity(nearest, length_kind(robot), self._preferences)}"
+
+    def _tell(self) -> None:
+        way = self._chosen()
+        self.go_button.setEnabled(way is not None and way.possible)
+        self.sentence.setText("" if way is None else self._way_words(way))
+
+    def _way_words(self, way: Way) -> str:
+        laws = ", ".join(
+            f"{law} {move.duration:.2f} s" for law, move in sorted(way.moves.items(), key=lambda item: item[1].duration)
+        )
+        margin = ""
+        if way.margin_joint is not None:
+            robot = self._session.robot
+            number = format_quantity(way.margin, joint_kind(robot, way.margin_joint), self._preferences)
+            margin = f" At the end {robot.joint_names[way.margin_joint]} is {number} before its limit."
+        return f"{way.label[:1].upper()}{way.label[1:]}: {laws}.{margin}"
+
+
+def _short(label: str) -> str:
+    """The branch in a narrow column."""
+    return label.replace("shoulder", "sh.").replace("elbow", "el.").replace("wrist", "wr.")
