@@ -21,8 +21,8 @@ from rvsim.lab.sources.reproduction_texts import reproduction_csv, reproduction_
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
 
-_SIZE, _SHARE = (1040, 620), 0.94  # [px], and at most this share of the window behind
-_SENTENCE_LINES = 4
+_SIZE, _SHARE = (1240, 640), 0.94  # [px], and at most this share of the window behind
+_SENTENCE_LINES = 3
 _STEPS = 1000
 
 

@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
 
 KEYS = "Ctrl+Shift+O"
+_NEW_GROUPS = ("000-P1", "004-4.7")  # experiments with which a menu of their own begins
 
 
 def make_sources_menu(window: MainWindow) -> QMenu:
     """ "All experiments…" and a menu a source; an entry sets the window up for its experiment."""
     menu = QMenu("&Sources", window)
     menu.setObjectName("sources_menu")
-    menu.setToolTipsVisible(True)
     every = menu.addAction("All experiments…")
     every.setObjectName("action_all_experiments")
     every.setShortcut(KEYS)
@@ -37,23 +37,34 @@ def make_sources_menu(window: MainWindow) -> QMenu:
 def _menu_of(window: MainWindow, source: str, title: str) -> QMenu:
     menu = QMenu(f"{source}  {title}", window)
     menu.setObjectName(f"source_{source}_menu")
-    menu.setToolTipsVisible(True)
     table = menu.addAction("Its numbers…")
     table.setObjectName(f"action_source_{source}_numbers")
     table.setStatusTip(f"The numbers of source {source} as a table")
     table.triggered.connect(lambda _checked=False: sources_dialog(window).show_source(source))
     menu.addSeparator()
-    for experiment in experiments():
-        if experiment.source == source:
-            _add(menu, window, experiment)
+    groups = _groups(source)
+    for group in groups:
+        inside = menu if len(groups) == 1 else menu.addMenu(f"{group[0].item} to {group[-1].item}")
+        for experiment in group:
+            _add(inside, window, experiment)
     return menu
+
+
+def _groups(source: str) -> list[list[SourceExperiment]]:
+    """A source's experiments in their order, few enough for a menu each."""
+    groups: list[list[SourceExperiment]] = [[]]
+    for experiment in experiments():
+        if experiment.key in _NEW_GROUPS:
+            groups.append([])
+        if experiment.source == source:
+            groups[-1].append(experiment)
+    return [group for group in groups if group]
 
 
 def _add(menu: QMenu, window: MainWindow, experiment: SourceExperiment) -> None:
     action = menu.addAction(f"{experiment.item}: {experiment.title}".replace("&", "&&"))
     action.setObjectName(f"action_experiment_{experiment.key}")
     action.setStatusTip(experiment.shows)
-    action.setToolTip(experiment.shows)
     action.triggered.connect(partial(_show, window, experiment))
 
 

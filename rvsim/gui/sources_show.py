@@ -6,17 +6,20 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from PySide6.QtWidgets import QToolButton
 
 from rvsim.gui.panels.inspect_forces import ForcesPage, Pull
 from rvsim.gui.panels.inspect_source import SourcePage
 from rvsim.gui.widgets import select
-from rvsim.lab.sources.experiment import Setup, SourceExperiment
+from rvsim.lab.sources.experiment import Move, Setup, SourceExperiment
 from rvsim.motion.trajectory import joint_move
 from rvsim.robot import Robot
 from rvsim.robot.robot import NO_TOOL
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
+
+_CURVES = ("plot_q_button", "plot_qd_button", "plot_qdd_button")
 
 
 def show_experiment(window: MainWindow, experiment: SourceExperiment) -> None:
@@ -61,9 +64,16 @@ def _run(window: MainWindow, setup: Setup, text: str) -> None:
     if setup.track:
         tracks[setup.track]()
     if setup.move is not None:
-        session = window.session
-        window.tracker.clear()
-        move = joint_move(session.robot, session.q, setup.move.end, seconds=setup.move.seconds, law=setup.move.law)
-        window.preferences.set("show_plots", True)
-        window.motion.load(move, text)
-        window.motion.play()
+        _play(window, setup.move, text)
+
+
+def _play(window: MainWindow, move: Move, text: str) -> None:
+    """A motion without a path: what its law is like is in the curves."""
+    session = window.session
+    window.tracker.clear()
+    for made in window.plots.findChildren(QToolButton):
+        if made.isCheckable():
+            made.setChecked(made.objectName() in _CURVES)
+    window.preferences.set("show_plots", True)
+    window.motion.load(joint_move(session.robot, session.q, move.end, seconds=move.seconds, law=move.law), text)
+    window.motion.play()

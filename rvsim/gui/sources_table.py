@@ -33,7 +33,7 @@ SIGNS = {
     "cannot be reached": ("⊘", "error"),
 }
 _ORDER = tuple(SIGNS)
-_LONGEST_NUMBER = 25  # letters; what is longer stands in the tooltip and in the sentence below
+_LONGEST, _DIGITS = 25, 4  # letters and digits of a cell; all of it stands in the tooltip and in the sentence below
 
 
 class SourcesModel(QAbstractTableModel):
@@ -96,11 +96,11 @@ class SourcesModel(QAbstractTableModel):
 
 
 def _text(keyed: KeyedReproduction, column: int) -> str:
-    text = shown_cells(keyed.row)[column]
+    text = shown_cells(keyed.row, _DIGITS)[column]
     if column == _VERDICT:
         return f"{SIGNS[text][0]} {text}"
-    if column in _NUMBERS and len(text) > _LONGEST_NUMBER:
-        return text[: text.rindex(", ", 0, _LONGEST_NUMBER - 3)] + ", …)"
+    if column in _NUMBERS and len(text) > _LONGEST:
+        return text[: text.rindex(", ", 0, _LONGEST - 3)] + ", …)"
     return text
 
 

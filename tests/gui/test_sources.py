@@ -124,6 +124,8 @@ def test_a_law_of_motion_is_played_with_its_curves(window: MainWindow, key: str)
     window.motion.pause()
     assert window.motion.player.trajectory.duration == pytest.approx(2.0)
     assert window.plots.isVisible()
+    assert window.plots.chosen == ["q", "qd", "qdd"]
+    assert window.session.experiment.law == key.removeprefix("004-")
     window.motion.seek(2.0)
     assert np.degrees(window.session.q) == pytest.approx([40, 0, 0, 0, 0])
 
@@ -208,14 +210,24 @@ def test_what_is_copied_is_what_is_seen(dialog: SourcesDialog) -> None:
 # --- the menu --------------------------------------------------------------------------------------------------------
 
 
+def every_action(menu: QMenu) -> list[QAction]:
+    """Those of a menu and of the menus in it."""
+    return [
+        found
+        for action in menu.actions()
+        for found in (every_action(action.menu()) if action.menu() is not None else [action])
+    ]
+
+
 def test_the_menu_leads_to_every_experiment_and_to_the_table(window: MainWindow, monkeypatch) -> None:
     monkeypatch.setattr("rvsim.gui.sources_worker.reproduce_by_key", lambda _tell: ())
     taken = {keys for _, _, keys in shortcut_table(window)}
     menu = make_sources_menu(window)
     menus = [window.findChild(QMenu, f"source_{source}_menu") for source in SOURCE_TITLES]
-    names = {action.objectName() for inner in menus for action in inner.actions()}
-    assert {f"action_experiment_{experiment.key}" for experiment in ALL} <= names
     assert all(inner.menuAction() in menu.actions() for inner in menus)
+    names = [action.objectName() for inner in menus for action in every_action(inner)]
+    experiments_in_order = [f"action_experiment_{experiment.key}" for experiment in ALL]
+    assert [name for name in names if name.startswith("action_experiment_")] == experiments_in_order
     assert KEYS not in taken
     window.findChild(QAction, "action_experiment_000-P3").trigger()
     assert in_front(window, "points")

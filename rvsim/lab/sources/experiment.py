@@ -73,7 +73,7 @@ class Setup:
             trajectory=self.trajectory or before.trajectory,
             ignore_limits=self.ignore_limits or bool(limit_violations(robot, q)),
             target=None,
-            law="quintic",
+            law="quintic" if self.move is None else self.move.law,
             path_seconds=self.path_seconds,
         )
 

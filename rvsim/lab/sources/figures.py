@@ -49,9 +49,11 @@ def as_numbers(values: ArrayLike) -> Numbers:
     return float(clean) if clean.ndim == 0 else tuple(float(value) for value in clean.ravel())
 
 
-def shown_value(value: Numbers) -> str:
-    """For people: six digits at most."""
-    return number(value, 6) if isinstance(value, float) else f"({', '.join(number(each, 6) for each in value)})"
+def shown_value(value: Numbers, digits: int = 6) -> str:
+    """For people: so many digits at most."""
+    if isinstance(value, float):
+        return number(value, digits)
+    return f"({', '.join(number(each, digits) for each in value)})"
 
 
 def number(value: float, digits: int) -> str:

@@ -32,9 +32,10 @@ _LATEX = {
 _SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 
-def shown_cells(row: Reproduction) -> tuple[str, ...]:
+def shown_cells(row: Reproduction, digits: int = 6) -> tuple[str, ...]:
     """The texts of `COLUMNS`; an empty one where the source has no such number."""
-    return (row.source, row.item, _shown(row.printed), _shown(row.formula), shown_value(row.ours), row.verdict)
+    numbers = ("" if value is None else shown_value(value, digits) for value in (row.printed, row.formula, row.ours))
+    return (row.source, row.item, *numbers, row.verdict)
 
 
 def row_sentence(row: Reproduction, experiment: SourceExperiment) -> str:
@@ -61,10 +62,6 @@ def reproduction_latex(rows: Sequence[Reproduction]) -> str:
     lines = [" & ".join(_latex(cell) for cell in shown_cells(row)) + r" \\" for row in rows]
     begin = [r"\begin{longtable}{lp{5cm}rrrl}", r"\toprule", rf"{head} \\", r"\midrule"]
     return "\n".join([*begin, *lines, r"\bottomrule", r"\end{longtable}"])
-
-
-def _shown(value: Numbers | None) -> str:
-    return "" if value is None else shown_value(value)
 
 
 def _plain(value: Numbers | None) -> str:
