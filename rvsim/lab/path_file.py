@@ -5,26 +5,17 @@
 
 from __future__ import annotations
 
-import csv
-import re
 from collections.abc import Sequence
 from pathlib import Path as FilePath
-from typing import NamedTuple
 
 from rvsim.errors import ExpressionError, PathFileError
 from rvsim.expressions import evaluate
+from rvsim.lab.table_file import RawRow, cells_of, counts, is_number, plain_name, read_text
 from rvsim.motion import Path, through_points
 from rvsim.units import metres_from_millimetres
 
 _COLUMNS = ("x", "y", "z")
-_LARGEST_BYTES = 20_000_000
 _DELIMITERS = ";\t,"
-_COLUMN_UNIT = re.compile(r"(\[(mm|units?)\]|\((mm|units?)\)|_(mm|unit))$")
-
-
-class _Row(NamedTuple):
-    number: int
-    cells: list[str]
 
 
 def read_path(file: FilePath | str) -> Path:
@@ -39,12 +30,7 @@ def read_path(file: FilePath | str) -> Path:
         OSError: the file cannot be read.
     """
     path = FilePath(file)
-    if path.stat().st_size > _LARGEST_BYTES:
-        raise PathFileError(path, "the file", f"{path.stat().st_size} bytes", f"at most {_LARGEST_BYTES}")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        raise PathFileError(path, "the file", "bytes that are no text", "a CSV file in UTF-8") from None
+    text = read_text(path)
     return through_points(metres_from_millimetres(points_mm_of(path, text)), name=path.name)
 
 
@@ -63,27 +49,19 @@ def points_mm_of(path: FilePath, text: str) -> list[tuple[float, ...]]:
     return [_point(path, row, columns or (0, 1, 2)) for row in rows]
 
 
-def _rows(path: FilePath, text: str) -> list[_Row]:
-    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if _counts(line)]
+def _rows(path: FilePath, text: str) -> list[RawRow]:
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if counts(line)]
     if not lines:
         raise PathFileError(path, "the file", "nothing", "rows of x, y, z in millimetres")
     delimiter = next((mark for mark in _DELIMITERS if mark in lines[0][1]), ",")
-    return [_Row(number, _cells(line, delimiter)) for number, line in lines]
+    return [RawRow(number, cells_of(line, delimiter)) for number, line in lines]
 
 
-def _counts(line: str) -> bool:
-    return bool(line.strip()) and not line.lstrip().startswith("#")
-
-
-def _cells(line: str, delimiter: str) -> list[str]:
-    return [cell.strip() for cell in next(csv.reader([line.replace("\0", "")], delimiter=delimiter))]
-
-
-def _header(path: FilePath, row: _Row) -> tuple[int, ...] | None:
+def _header(path: FilePath, row: RawRow) -> tuple[int, ...] | None:
     """The columns of x, y and z if the row names columns; None if it holds numbers."""
-    if any(_is_number(cell) for cell in row.cells):
+    if any(is_number(cell) for cell in row.cells):
         return None
-    names = [_plain(cell) for cell in row.cells]
+    names = [plain_name(cell) for cell in row.cells]
     missing = [name for name in _COLUMNS if name not in names]
     if missing:
         found = f"a header without {' and '.join(missing)} ({', '.join(row.cells)[:60]})"
@@ -91,24 +69,11 @@ def _header(path: FilePath, row: _Row) -> tuple[int, ...] | None:
     return tuple(names.index(name) for name in _COLUMNS)
 
 
-def _plain(cell: str) -> str:
-    """A column's name without its unit."""
-    return _COLUMN_UNIT.sub("", cell.lower()).strip()
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        evaluate(cell)
-    except ExpressionError:
-        return False
-    return True
-
-
-def _point(path: FilePath, row: _Row, columns: Sequence[int]) -> tuple[float, ...]:
+def _point(path: FilePath, row: RawRow, columns: Sequence[int]) -> tuple[float, ...]:
     return tuple(_value(path, row, column, name) for column, name in zip(columns, _COLUMNS, strict=True))
 
 
-def _value(path: FilePath, row: _Row, column: int, name: str) -> float:
+def _value(path: FilePath, row: RawRow, column: int, name: str) -> float:
     where = f"row {row.number}, column {column + 1} ({name})"
     if column >= len(row.cells):
         raise PathFileError(path, where, "nothing", "a number in millimetres")
