@@ -271,10 +271,16 @@ class TargetControl(QObject):
         """The arm stays, or goes to q (n,) as near as it can; the target goes without it."""
         self.T = self._wanted = wish.T
         self._show(seen_from(answer, q), q)
-        if wish.creeps and self.follows and not answer.missed:
-            self.sentence = f"{self._ended(answer, self._label)} Others go on: choose one in the table."
+        if wish.creeps and self.follows:
+            self.sentence = self._creeping_sentence(answer)
         self.changed.emit()
         self._put(replace(self.session.experiment, q=q, target=wish.T), wish.text, wish.merge)
+
+    def _creeping_sentence(self, answer: Answer) -> str:
+        if not answer.missed:
+            return f"{self._ended(answer, self._label)} Others go on: choose one in the table."
+        asked = answer.failure is not None or answer.numeric is not None
+        return self.sentence if asked else "Out of reach: the arm follows along the edge."
 
     def _on_rest(self) -> None:
         """The hand rests: time to know why not, and what is nearest."""

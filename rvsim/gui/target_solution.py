@@ -259,7 +259,7 @@ def nearest_pose(answer: Answer, units: Units) -> NearestPose:
     return NearestPose(q, T, sentence, float(left.position), float(left.angle))
 
 
-_CREEPING = "The arm cannot follow that far. It stays as near as it can."
+_NOT_ASKED = "Out of reach."
 _AT_ONCE = {
     "reach": "The place is out of reach.",
     "orientation": "The place can be reached, but not in this orientation.",
@@ -274,6 +274,6 @@ def immediate_sentence(answer: Answer, units: Units) -> str:
         return answer.numeric.reason
     failure = answer.failure
     if failure is None and answer.hurried:
-        return _CREEPING
+        return _NOT_ASKED
     assert failure is not None, "no branch that can be used, and no reason"
     return failure_sentence(failure, units) if failure.kind == "limits" else _AT_ONCE[failure.kind]

@@ -9,13 +9,14 @@ from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QSizePolic
 
 from rvsim.gui.branch_words import singular_words
 from rvsim.gui.orientations import MATRIX, NOTATIONS
+from rvsim.gui.panels.inverse_fold import FoldingRow, group_of
 from rvsim.gui.panels.inverse_matrix import MatrixDialog
 from rvsim.gui.panels.inverse_order import OrderButton
 from rvsim.gui.panels.inverse_table import BranchModel, BranchTable, Row
 from rvsim.gui.panels.number_row import NumberRow
 from rvsim.gui.panels.orientation_boxes import OrientationBoxes
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import display, format_quantity, format_scientific, length_kind
+from rvsim.gui.quantities import Display, Kind, display, format_quantity, format_scientific, length_kind
 from rvsim.gui.target import TargetControl, Wish
 from rvsim.gui.target_scene import PANEL
 from rvsim.gui.target_solution import CLOSED_FORM, SOLVER_TITLES, TASK_TITLES, Answer, NearestPose
@@ -26,6 +27,7 @@ from rvsim.robot.arrays import FloatArray
 _AXES = ("x", "y", "z")
 _HINT = "Point at a branch to see its ghost; click it, or press Enter, to go there."
 _PASTE_PLACE = "Three numbers can be pasted or typed into any of the boxes."
+_SOUGHT = {False: "Looking for the nearest pose…", True: "The nearest pose is looked for at rest."}
 _UNITS = ("angle_unit", "length_unit", "extra_decimals")
 
 
@@ -64,17 +66,14 @@ class TargetSection(QWidget):
         rows.setContentsMargins(0, 0, 0, 0)
         rows.addRow("Wanted", self.task)
         rows.addRow("Solver", self.solver)
-        tools = QHBoxLayout()
-        tools.setSpacing(6)
-        tools.addWidget(self.notation, 1)
-        tools.addWidget(self.paste)
-        tools.addWidget(self.at_tool)
+        ways = group_of(self.paste, self.at_tool, stretched=False)
+        tools = FoldingRow(group_of(self.notation, stretched=True), ways, 6)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
         column.addLayout(rows)
         column.addWidget(self.position)
-        column.addLayout(tools)
+        column.addWidget(tools)
         column.addWidget(self.angles)
 
     def show_offer(self) -> None:
@@ -157,7 +156,7 @@ class WhyNot(QFrame):
         self.accept.setVisible(answer.missed)
         self.accept.setEnabled(nearest is not None)
         self.left.setVisible(answer.missed)
-        self.left.setText(self._left(nearest) if nearest is not None else "Looking for the nearest pose…")
+        self.left.setText(_SOUGHT[answer.hurried] if nearest is None else self._left(nearest))
 
     def _left(self, nearest: NearestPose) -> str:
         place = format_quantity(nearest.position_error, length_kind(self._control.session.robot), self._preferences)
@@ -201,12 +200,8 @@ class InversePanel(QWidget):
         return box
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.setSpacing(12)
-        buttons.addWidget(self.solve)
-        buttons.addWidget(self.follow)
-        buttons.addWidget(self.ghosts)
-        buttons.addStretch(1)
+        ghosts = group_of(self.ghosts, stretched=False)
+        buttons = FoldingRow(group_of(self.solve, self.follow, stretched=False), ghosts, 12)
         self.table.setMinimumHeight(120)
         self.detail.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.detail.setAlignment(Qt.AlignmentFlag.AlignTop)
@@ -216,7 +211,7 @@ class InversePanel(QWidget):
         column.setContentsMargins(12, 8, 12, 8)
         column.setSpacing(6)
         column.addWidget(self.target)
-        column.addLayout(buttons)
+        column.addWidget(buttons)
         column.addWidget(self.why_not)
         column.addWidget(self.table, 1)
         column.addWidget(self.detail)
@@ -251,7 +246,7 @@ class InversePanel(QWidget):
 
     def _rows(self, answer: Answer) -> tuple[Row, ...]:
         usable = set(map(id, answer.usable))
-        note = _numeric_note(answer)
+        note = _numeric_note(answer, self._preferences)
         return tuple(
             Row(self._control.name_of(branch), branch, id(branch) in usable, note) for branch in answer.branches
         )
@@ -289,10 +284,18 @@ class InversePanel(QWidget):
         self.set_seen(False)
 
 
-def _numeric_note(answer: Answer) -> str:
+def _numeric_note(answer: Answer, preferences: Preferences) -> str:
     """How the numeric solver came to its row."""
     found = answer.numeric
     if answer.question.solver == CLOSED_FORM or found is None:
         return ""
-    errors = f"{format_scientific(found.position_error)} m, {format_scientific(found.rotation_error)} rad"
-    return f"{found.iterations} iterations, {found.elapsed * 1e3:.1f} ms, errors {errors}. {found.reason}"
+    errors: tuple[tuple[float, Kind], ...] = (
+        (found.position_error, length_kind(answer.question.robot)),
+        (found.rotation_error, "angle"),
+    )
+    words = ", ".join(_error(value, display(kind, preferences)) for value, kind in errors)
+    return f"{found.iterations} iterations, {found.elapsed * 1e3:.1f} ms, errors {words}. {found.reason}"
+
+
+def _error(value: float, shown: Display) -> str:
+    return f"{format_scientific(value * shown.factor)}{shown.suffix}"

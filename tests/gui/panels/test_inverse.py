@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QAbstractButton, QCheckBox, QComboBox, QLabel, QTableView, QWidget
 
 from rvsim.files import load_robot
-from rvsim.gui.panels.inverse import InversePanel
+from rvsim.gui.panels.inverse import InversePanel, _numeric_note
 from rvsim.gui.panels.inverse_table import NAME_ROLE, SORT_ROLE
+from rvsim.gui.quantities import format_scientific
 from rvsim.gui.session import Session
 from rvsim.gui.target import TargetControl, Wish
+from rvsim.gui.target_solution import branch_at
 from rvsim.kinematics import forward_kinematics
 from rvsim.spatial import rotation_from_rpy
 
@@ -314,3 +318,48 @@ def test_nothing_is_left_of_the_other_arm_while_nobody_watches(panel_of) -> None
     assert panel.control.answer is panel.control.nearest is None
     panel.show()
     assert {len(branch.q) for branch in panel.control.answer.branches} == {5}
+
+
+def test_a_numeric_row_tells_its_errors_in_the_shown_units(panel_of, preferences) -> None:
+    panel = panel_of("ur5e", UR5E)
+    choose(panel, "ik_solver_selector", "lm")
+    found = panel.control.answer.numeric
+    for units, shown in ((("deg", "mm"), "e−?\\d+ mm, .*e−?\\d+°"), (("rad", "m"), "e−?\\d+ m, .*e−?\\d+ rad")):
+        preferences.set("angle_unit", units[0])
+        preferences.set("length_unit", units[1])
+        note = _numeric_note(panel.control.answer, preferences)
+        assert re.search(shown.replace("−?", "[−+]"), note), note
+    assert f"errors {format_scientific(found.position_error)} m" in note
+
+
+def test_a_hand_beyond_the_reach_is_told_what_the_arm_does_and_the_nearest_at_rest(qtbot, panel_of) -> None:
+    panel = panel_of("ur5e", UR5E)
+    why, left = panel.why_not.sentence, panel.why_not.left
+    panel.control.request(Wish(down_at(2.0, 0.0, 0.2), "Drag", "drag", creeps=True))
+    panel.control.flush()
+    assert (why.text(), left.text()) == (
+        "Out of reach: the arm follows along the edge.",
+        "The nearest pose is looked for at rest.",
+    )
+    qtbot.waitUntil(lambda: panel.control.nearest is not None)
+    assert why.text().startswith("The place is out of reach")
+    assert left.text().startswith("Nearest:")
+
+
+@pytest.mark.parametrize("points", [9, 14])
+@pytest.mark.parametrize("width", [300, 341, 408])
+def test_no_button_is_cut_on_a_narrow_screen_or_in_large_type(qtbot, panel_of, width, points) -> None:
+    panel = panel_of("ur5e")
+    panel.setFont(QFont(panel.font().family(), points))
+    panel.resize(width, 560)
+    for name in ("paste_matrix_button", "target_at_tool_button", "solve_button", "arm_follows_switch"):
+        made = panel.findChild(QAbstractButton, name)
+        qtbot.waitUntil(lambda made=made: made.width() >= made.minimumSizeHint().width())
+        assert made.mapTo(panel, made.rect().topRight()).x() < panel.width()
+    assert not panel.target.paste.geometry().intersects(panel.target.at_tool.geometry())
+
+
+def test_the_branch_keeps_its_name_where_two_singularities_meet(panel_of) -> None:
+    q = np.radians([45.0, -90.0, 0.0, 30.0, 180.0, -90.0])
+    panel = panel_of("ur5e", q)
+    assert branch_at(panel.control.answer, q) is not None
