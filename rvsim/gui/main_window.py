@@ -16,7 +16,7 @@ from rvsim.gui.page_stack import Page, PageStack
 from rvsim.gui.panel_docks import PanelDocks, lies_behind
 from rvsim.gui.panels.dh_table import DHTablePanel
 from rvsim.gui.panels.how import HowPanel
-from rvsim.gui.panels.inspect import INSPECT
+from rvsim.gui.panels.inspect import inspector
 from rvsim.gui.panels.inverse import InversePanel
 from rvsim.gui.panels.joints import JointsPanel
 from rvsim.gui.panels.laboratory import LaboratoryPanel
@@ -128,13 +128,9 @@ class MainWindow(QMainWindow):
         return [
             ("path", "Path", PageStack("path_pages", path)),
             ("inverse", "Inverse", PageStack("inverse_pages", inverse)),
-            ("inspect", "Inspect", PageStack("inspect_pages", self._inspect_pages())),
+            ("inspect", "Inspect", inspector(*arguments, self.stage)),
             ("model", "Model", PageStack("model_pages", model)),
         ]
-
-    def _inspect_pages(self) -> list[Page]:
-        arguments = (self.session, self.preferences, self.stage)
-        return [Page(kind.name.removeprefix("inspect_"), kind.title, tip, kind(*arguments)) for kind, tip in INSPECT]
 
     def focusNextPrevChild(self, forward: bool) -> bool:
         """Tab passes over the panels that lie behind others: Qt calls them visible, but nobody sees them."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, largest_force, payload_wrench
+from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, joint_torques, largest_force, payload_wrench
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
@@ -23,6 +23,7 @@ from rvsim.gui.panels.inspect_forces_words import (
     torque_rows,
 )
 from rvsim.gui.panels.inspect_page import InspectPage
+from rvsim.gui.panels.inspect_sources_button import SourcesButton
 from rvsim.gui.panels.number_row import NumberRow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_quantity, moment_kind, torque_kind
@@ -97,6 +98,7 @@ class ForcesPage(InspectPage):
         self.legend, self.largest, self.message = wrapped_label("muted"), wrapped_label(), wrapped_label()
         self.largest.setObjectName("largest_force")
         self.equations = EquationsView(Typesetter(self))
+        self.sources = SourcesButton("dynamics", self)
         makers = {"text": values_text, "NumPy": values_numpy, "LaTeX": values_latex}
         formats = {name: (lambda make=make: make(self._values())) for name, make in makers.items()}
         self.copy = CopyButton("torque_copy", "the joint torques", formats, session)
@@ -148,6 +150,7 @@ class ForcesPage(InspectPage):
         column.addSpacing(6)
         column.addWidget(self.equations)
         column.addWidget(note)
+        column.addWidget(self.sources)
         column.addStretch(1)
         column_of(self, scrolled(inside))
 
@@ -220,6 +223,7 @@ class ForcesPage(InspectPage):
 
     def _take_robot(self, robot: Robot) -> None:
         self._robot = robot
+        self.sources.offer(robot)
         for box in self.moments.boxes:
             box.set_kind(moment_kind(robot))
         self.weight.setVisible(bool(robot.masses))
@@ -238,7 +242,8 @@ class ForcesPage(InspectPage):
         if asked is not None:
             pure_moment = not np.any(asked[:3])
             in_base = replace(self.pull, wrench=asked, payload=0.0).in_base(self._R)
-            found = largest_force(robot, q, in_base, ratings(robot), holding=weight)
+            held = weight + joint_torques(robot, q, payload_wrench(self.pull.payload, STANDARD_GRAVITY))
+            found = largest_force(robot, q, in_base, ratings(robot), holding=held)
         self.largest.setText(largest_text(robot, found, pure_moment, self._preferences))
 
     # --- the scene -------------------------------------------------------------------------------------------------

@@ -25,6 +25,7 @@ from rvsim.gui.panels.inspect_jacobian_words import (
     units_line,
 )
 from rvsim.gui.panels.inspect_page import InspectPage
+from rvsim.gui.panels.inspect_sources_button import SourcesButton
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
@@ -69,6 +70,7 @@ class JacobianPage(InspectPage):
         for label, part in ((self.rank, "rank"), (self.check, "check"), (self.column, "column"), (self.note, "note")):
             label.setObjectName(f"jacobian_{part}")
         self.equations = EquationsView(Typesetter(self))
+        self.sources = SourcesButton("jacobian", self)
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -86,7 +88,7 @@ class JacobianPage(InspectPage):
         for widget in above:
             column.addWidget(widget)
         column.addSpacing(8)
-        below: tuple[QWidget, ...] = (self.column, self.equations, self.note)
+        below: tuple[QWidget, ...] = (self.column, self.equations, self.note, self.sources)
         for widget in below:
             column.addWidget(widget)
         column.addStretch(1)
@@ -107,6 +109,7 @@ class JacobianPage(InspectPage):
         """Show J of the present joint values."""
         robot, q, kind, part = self._session.robot, self._session.q, self.kind, self.parts.currentData()
         self._J = FORMULAS[kind](robot, q)
+        self.sources.offer(robot)
         rows = _ROWS[part]
         changed = self.table.jacobian.show_values(
             table_rows(kind, robot, self._preferences)[rows],

@@ -24,6 +24,7 @@ from rvsim.gui.panels.inspect_singular_words import (
     scale_sentence,
     verdict_sentence,
 )
+from rvsim.gui.panels.inspect_sources_button import SourcesButton
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
@@ -74,6 +75,7 @@ class SingularPage(InspectPage):
         self._make_ellipsoids()
         self.families = FamilyList(self.typesetter, preferences)
         self.families.asked.connect(self.go_to)
+        self.sources = SourcesButton("singularity", self)
         self._lay_out()
 
     def _make_verdict(self) -> None:
@@ -122,6 +124,7 @@ class SingularPage(InspectPage):
         self._column.addSpacing(12)
         self._place = QVBoxLayout()
         self._column.addLayout(self._place)
+        self._column.addWidget(self.sources)
         self._column.addStretch(1)
         column_of(self, scrolled(inside))
 
@@ -198,6 +201,7 @@ class SingularPage(InspectPage):
 
     def _take_robot(self, robot: Robot) -> None:
         self._robot = robot
+        self.sources.offer(robot)
         rows = len(task_rows(robot))
         own, other = (TASK_TITLES[rows], "Place") if rows == 6 else (TASK_TITLES[rows], "All of J")
         for head, text in zip(self.heads, (own, other), strict=True):

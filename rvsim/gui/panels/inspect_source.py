@@ -96,6 +96,11 @@ class SourcePage(InspectPage):
             if isinstance(entry, Erratum) and entry.key == key:
                 self.list.setCurrentRow(row)
 
+    def choose_topic(self, topic: str) -> None:
+        """Offer the errata of a topic, where this arm has some."""
+        self._offer_robot(self._session.robot)
+        self.topics.setCurrentIndex(max(self.topics.findData(topic), 0))
+
     def refresh(self) -> None:
         """Show the chosen erratum at the present pose."""
         robot, q = self._session.robot, self._session.q

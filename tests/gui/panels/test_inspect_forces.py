@@ -100,6 +100,12 @@ def test_the_largest_force_names_the_joint_that_limits_it(page_of):
     assert robot.joints[3].max_torque.value == 2.0
 
 
+def test_a_payload_leaves_less_for_the_largest_force(page_of):
+    page = page_of("rv-m1", np.zeros(5))
+    enter(page, "payload", 1.0)
+    assert page.largest.text().startswith(f"{2.0 / 0.072 - 9.80665:.1f} N: ")
+
+
 def test_hidden_pages_draw_nothing_and_leave_the_pointer_alone(page_of):
     page = page_of("rv-m1")
     view, drag = page._stage.view, page.drag
