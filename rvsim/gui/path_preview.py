@@ -71,10 +71,15 @@ class PathPreview(QObject):
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         if after.robot is not before.robot:
             self._clear()
-        elif (after.trajectory is not before.trajectory and self._session.tracking is None) or (
+        elif (after.trajectory is not before.trajectory and not self._is_tracked()) or (
             after.ignore_limits != before.ignore_limits and self.path is not None
         ):
             self._show(after)
+
+    def _is_tracked(self) -> bool:
+        """Whether it is a trajectory that is shown as tracked, not a line."""
+        shown = self._session.tracking
+        return shown is not None and shown.path.name != "line"
 
     def _on_tracking(self, tracking: Tracking | None) -> None:
         if tracking is not None:

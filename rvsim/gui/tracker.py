@@ -16,7 +16,7 @@ from rvsim.gui.workers import LatestWorker
 from rvsim.lab.lines import line_presets
 from rvsim.lab.named_paths import line_of
 from rvsim.lab.sentences import Units, tracking_sentence
-from rvsim.lab.shape_paths import task_path
+from rvsim.lab.shape_paths import is_shape, task_path
 from rvsim.motion import Path, Tracking, Trajectory, track, trajectory_of
 from rvsim.robot import Robot
 
@@ -255,7 +255,9 @@ class PathTracker(QObject):
         experiment, tip = self._session.experiment, "Move it to a place where the arm reaches all of it"
         if self.kind == "line":
             return Repair("Preset line", tip, replace(experiment, line=line_presets(tracking.robot)[0].task()))
-        drawable = _PLACEMENTS.get(experiment.trajectory.name)
-        if drawable is None:
+        task = experiment.trajectory
+        drawable = _PLACEMENTS.get(task.name)
+        if drawable is None and (task.placement is None or not is_shape(task)):
             return None
-        return Repair("Drawable placement", tip, replace(experiment, trajectory=TrajectoryTask(drawable)))
+        placed = TrajectoryTask(drawable) if drawable is not None else replace(task, placement=None)
+        return Repair("Drawable placement", tip, replace(experiment, trajectory=placed))

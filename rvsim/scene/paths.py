@@ -51,8 +51,8 @@ def trail_items(
         return ()
     if pen_up is None:
         return (Polyline(key, line, palette.actual, 2.2),)
-    down = ~np.asarray(pen_up, dtype=bool)
-    pieces = [piece for drawn, _, piece in _stretches(line, down, ~down) if drawn]
+    up = np.asarray(pen_up, dtype=bool)
+    pieces = [piece for _, lifted, piece in _stretches(line, np.ones_like(up), up) if not lifted]
     return tuple(Polyline(f"{key}{number}", piece, palette.actual, 2.2) for number, piece in enumerate(pieces))
 
 

@@ -40,5 +40,14 @@ def test_the_actual_path_lies_on_top_and_a_single_point_is_no_trail() -> None:
     assert trail_items(np.zeros((1, 3)), LIGHT) == ()
 
 
+def test_where_the_pen_is_up_the_path_is_thin_and_dashed_and_the_trail_is_not_drawn() -> None:
+    points, up = np.arange(18.0).reshape(-1, 3), np.array([False, False, True, True, False, False])
+    lines = path_items(points, np.ones(6, bool), np.empty((0, 3)), LIGHT, pen_up=up, marks=False)
+    found = [(len(line.points), line.dashed, line.width) for line in lines if isinstance(line, Polyline)]
+    assert found == [(2, False, 2.0), (3, True, 1.0), (3, False, 2.0)]
+    trail = trail_items(points, LIGHT, pen_up=up)
+    assert [len(line.points) for line in trail if isinstance(line, Polyline)] == [2, 3]
+
+
 def test_a_path_of_one_point_is_no_line() -> None:
     assert _lines(np.zeros((1, 3)), [True]) == []

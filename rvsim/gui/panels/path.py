@@ -58,6 +58,11 @@ class PathPanel(QWidget):
         session.tracking_changed.connect(self._on_tracking)
         self._show(session.experiment)
 
+    def set_seen(self, seen: bool) -> None:
+        """Whoever looks at another panel does not drag the path."""
+        if not seen and self.path_drag is not None:
+            self.path_drag.switch(False)
+
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         if (
             after.robot is not before.robot

@@ -45,6 +45,7 @@ class _PointsModel(QAbstractTableModel):
     def __init__(self, robot: Robot, preferences: Preferences, parent: QObject) -> None:
         super().__init__(parent)
         self._kind, self._preferences = length_kind(robot), preferences
+        preferences.changed.connect(lambda _: self.layoutChanged.emit())
         self.points: FloatArray = np.empty((0, 3))
 
     @property

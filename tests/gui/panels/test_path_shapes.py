@@ -228,6 +228,19 @@ def test_a_path_out_of_reach_says_how_much_of_it_is_not(desk_of) -> None:
     assert any(line.dashed for line in desk.lines(LAYER))
     desk.track()
     assert desk.session.tracking.reached_count / 101 == share
+    desk.click("repair_drawable_placement")
+    assert desk.session.tracking.complete
+
+
+def test_a_shape_is_seen_before_it_is_tracked_beside_a_tracked_line_too(desk_of) -> None:
+    desk = desk_of("ur5e")
+    assert desk.lines(LAYER) == []
+    desk.panel.line.button.click()
+    desk.choose("trajectory_selector", "star")
+    assert desk.lines(LAYER)
+    assert desk.session.tracking is not None
+    desk.panel.line.button.click()
+    assert desk.lines(LAYER) == []
 
 
 def held(desk: Desk, key: str) -> tuple[QPointF, QPointF]:
