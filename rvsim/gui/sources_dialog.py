@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLineEdit, QProgr
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.sources_show import show_experiment
-from rvsim.gui.sources_table import SourcesFilter, SourcesModel, sources_view
+from rvsim.gui.sources_table import SourcesFilter, SourcesModel, fit_rows, sources_view
 from rvsim.gui.sources_worker import SourcesWorker
 from rvsim.gui.widgets import button, combo
 from rvsim.lab.sources.experiments import SOURCE_TITLES, experiment_of
@@ -180,8 +180,8 @@ class SourcesDialog(QDialog):
         return tuple(keyed.row for keyed in self.filter.rows)
 
     def _on_preference(self, name: str) -> None:
-        if name == "theme":
-            self.table.viewport().update()
+        if name in ("theme", "presentation"):
+            fit_rows(self.table)
 
 
 def sources_dialog(window: MainWindow) -> SourcesDialog:

@@ -25,6 +25,7 @@ _CURVES = ("plot_q_button", "plot_qd_button", "plot_qdd_button")
 def show_experiment(window: MainWindow, experiment: SourceExperiment) -> None:
     """Take its arm, its pose and its tasks as one undo step, bring its panel to the front, and let it run."""
     window.motion.pause()
+    window.tracker.cancel()
     _set_up(window, experiment)
     setup = experiment.setup
     window.session.say(f"Source {experiment.source}, {experiment.item}: {experiment.shows}")

@@ -153,5 +153,11 @@ def sources_view(model: SourcesFilter) -> QTableView:
         stretched = column == _ITEM
         mode = QHeaderView.ResizeMode.Stretch if stretched else QHeaderView.ResizeMode.ResizeToContents
         table.horizontalHeader().setSectionResizeMode(column, mode)
-    table.verticalHeader().setDefaultSectionSize(text_metrics().height() + 8)
+    fit_rows(table)
     return table
+
+
+def fit_rows(table: QTableView) -> None:
+    """As high as the letters need, and in the colours of now."""
+    table.verticalHeader().setDefaultSectionSize(text_metrics().height() + 8)
+    table.viewport().update()

@@ -79,8 +79,8 @@ _PLAYED = (
     _entry("P12", "Program 12", "Tracking the line", "Within the source's own limits the arm reaches 4 of the 11 "
            "points: the elbow would have to bend beyond −110°.",
            Setup("path", _START_POSE, _source_line(), track="line")),
-    _entry("P13", "Program 13", "Tracking the letter", "Start and end are typed in, and not used. The letter as "
-           "printed begins three quarters of a metre away; the arm reaches half a metre.",
+    _entry("P13", "Program 13", "Tracking the letter", "Start and end are typed in, and not used. The nearest "
+           "point of the letter is three quarters of a metre away; the arm reaches half a metre.",
            Setup("path", _START_POSE, trajectory=_LETTER, track="trajectory")),
     _entry("P14", "Program 14", "The window", "Five joints, a start and an end: eleven boxes, as in the panels Arm and "
            "Path of this window.", Setup("path", None, _source_line())),
