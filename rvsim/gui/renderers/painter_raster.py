@@ -34,6 +34,7 @@ BitArray = NDArray[np.uint64]
 
 _NOTHING = -1
 _MOST_RAYS = 320_000  # more than these make a coarser picture, smoothly enlarged
+_CHUNK = 10_000  # rays at a time: what is worked out about them stays in the processor's cache
 _SUBPIXELS = np.array([(0.125, 0.375), (0.625, 0.125), (0.875, 0.625), (0.375, 0.875)], dtype=np.float32)
 
 
@@ -140,7 +141,15 @@ def _slices(box: tuple[float, float, float, float], raster: _Raster) -> tuple[sl
 
 
 def _trace(part: _Part, number: int, raster: _Raster, depth: SingleArray, ids: IdArray) -> None:
-    """Puts a body into the depth picture wherever it is the nearest so far."""
+    """Puts a body into the depth picture wherever it is the nearest so far, some rows at a time."""
+    rows, columns = part.rows, part.columns
+    step = max(_CHUNK // max(columns.stop - columns.start, 1), 1)
+    for start in range(rows.start, rows.stop, step):
+        strip = part._replace(rows=slice(start, min(start + step, rows.stop)))
+        _trace_strip(strip, number, raster, depth, ids)
+
+
+def _trace_strip(part: _Part, number: int, raster: _Raster, depth: SingleArray, ids: IdArray) -> None:
     near, shown = depth[part.rows, part.columns], ids[part.rows, part.columns]
     columns, rows = _centres(part.columns.start, near.shape[1]), _centres(part.rows.start, near.shape[0])
     found, face = _met(part, raster, columns[None, :], rows[:, None])

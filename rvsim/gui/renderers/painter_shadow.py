@@ -25,7 +25,7 @@ _FACES = np.array([[[0, 1, 3, 2], [4, 5, 7, 6]], [[0, 1, 5, 4], [2, 3, 7, 6]], [
 
 def draw_shadow(painter: QPainter, solids: Iterable[Capsule | Box], lens: Lens, background: Color) -> None:
     """One shadow for all solids."""
-    outlines = [outline for solid in solids for outline in _footprints(solid) if np.isfinite(outline).all()]
+    outlines = _footprints(list(solids))
     pixels = _on_screen(outlines, lens)
     region = _region(pixels, lens)
     if region is None:
@@ -98,18 +98,28 @@ def _tinted(values: FloatArray, color: Color) -> NDArray[np.uint8]:
     return np.asarray(np.rint(255.0 * alpha * np.array([blue, green, red, 1.0])), dtype=np.uint8)
 
 
-def _footprints(solid: Capsule | Box) -> list[FloatArray]:
-    """Outlines (k, 2) that together cover what is under a solid [m]."""
-    if isinstance(solid, Capsule):
-        return [_capsule_footprint(solid)]
-    rotation = solid.T_base_box[:3, :3]
-    corners = (0.5 * BOX_CORNERS * solid.size) @ rotation.T + solid.T_base_box[:3, 3]
-    upper = _FACES[np.arange(3), (rotation[2] >= 0.0).astype(int)]
-    return list(corners[upper, :2])
+def _footprints(solids: list[Capsule | Box]) -> list[FloatArray]:
+    """Outlines (k, 2) that together cover what is under solids [m]; solids at no place have none."""
+    boxes = [solid for solid in solids if isinstance(solid, Box)]
+    capsules = [solid for solid in solids if isinstance(solid, Capsule)]
+    groups = ([_box_footprints(boxes)] if boxes else []) + ([_capsule_footprints(capsules)] if capsules else [])
+    return [outline for group in groups for outline in group[np.isfinite(group).all(axis=(1, 2))]]
 
 
-def _capsule_footprint(capsule: Capsule) -> FloatArray:
-    span = (capsule.end - capsule.start)[:2]
-    angles = np.arctan2(span[1], span[0]) + _HALF_TURN
-    cap = capsule.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    return np.concatenate([capsule.end[:2] + cap, capsule.start[:2] - cap])
+def _box_footprints(boxes: list[Box]) -> FloatArray:
+    """(3m, 4, 2) three faces of each box, the upper one of each two."""
+    T = np.array([box.T_base_box for box in boxes])
+    half = 0.5 * BOX_CORNERS * np.array([box.size for box in boxes])[:, None]
+    corners = half @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
+    upper = _FACES[np.arange(3), (T[:, 2, :3] >= 0.0).astype(int)]
+    return np.asarray(corners[np.arange(len(boxes))[:, None, None], upper, :2].reshape(-1, 4, 2))
+
+
+def _capsule_footprints(capsules: list[Capsule]) -> FloatArray:
+    """(m, 18, 2) two half circles each."""
+    start, end = (np.array([getattr(each, side)[:2] for each in capsules])[:, None] for side in ("start", "end"))
+    span = end - start
+    angles = np.arctan2(span[..., 1], span[..., 0]) + _HALF_TURN
+    radius = np.array([each.radius for each in capsules])[:, None, None]
+    cap = radius * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    return np.concatenate([end + cap, start - cap], axis=1)

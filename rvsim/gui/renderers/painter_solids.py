@@ -22,6 +22,7 @@ FloatArray = NDArray[np.float64]
 ByteArray = NDArray[np.uint8]
 
 _FLAT_SHINE = np.float32(0.6)  # a flat face that mirrors the light would be white all over
+_HARDLY = np.float32(1e-9)  # what keeps a ray just along a face from dividing by zero
 FACES = 3  # a solid has this many surface numbers; a box shows at most three faces, a capsule uses the first
 
 
@@ -100,21 +101,18 @@ class FlatBody:
 
     def hits(self, rays: Rays) -> Hits:
         """Between the three pairs of planes: in through the last, out through the first."""
-        enters, leaves = zip(*(self._slab(rays, k) for k in range(3)), strict=True)
-        enter = np.maximum(np.maximum(enters[0], enters[1]), enters[2])
-        leave = np.minimum(np.minimum(leaves[0], leaves[1]), leaves[2])
+        x, y, dx, dy = (values[None] for values in rays)
+        along_x, along_y, along_z = self.axes.T.reshape(3, 3, *(1,) * (x.ndim - 1))
+        half = self.half.reshape(along_x.shape)
+        with np.errstate(divide="ignore", invalid="ignore"):  # a ray along a plane meets nothing
+            slowness = 1.0 / ((along_x * dx + (along_z + _HARDLY)) + along_y * dy)
+            middle = (along_x * x + along_y * y) * slowness
+            reach = half * np.abs(slowness)
+            enters = (-middle) - reach
+            enter, leave = enters.max(axis=0), (reach - middle).min(axis=0)
         face = (enters[1] == enter).astype(np.uint8)
         face[enters[2] == enter] = 2
         return Hits(np.where(enter < leave, enter, np.float32(np.inf)), face)
-
-    def _slab(self, rays: Rays, k: int) -> tuple[SingleArray, SingleArray]:
-        ax, ay, az = self.axes[k].tolist()
-        half = float(self.half[k])
-        speed = (ax * rays.dx + az) + ay * rays.dy
-        speed = 1.0 / np.where(np.abs(speed) < 1e-7, np.float32(1e-7), speed)
-        middle = (ax * rays.x + ay * rays.y) * speed
-        reach = half * np.abs(speed)
-        return -middle - reach, reach - middle
 
     def normals(self) -> SingleArray:
         """(3, 3) of the three faces that can be seen."""
