@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QResizeEvent, QValidator, QWheelEvent
+from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent, QValidator, QWheelEvent
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QWidget
 
 from rvsim.errors import ExpressionError
@@ -33,6 +33,7 @@ class QuantityBox(QDoubleSpinBox):
         self._kind, self._preferences, self._title = kind, preferences, title
         self._quantity, self._lower, self._upper = 0.0, -math.inf, math.inf
         self._limits_hint = ""
+        self._span = (0.0, 0.0)
         self.setKeyboardTracking(False)
         self.setAccessibleName(title)
         self.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
@@ -77,8 +78,10 @@ class QuantityBox(QDoubleSpinBox):
         # A pose reached while limits were ignored may lie outside them: it is shown as it is.
         lower, upper = min(self._lower, self._quantity), max(self._upper, self._quantity)
         span = max(lower * shown.factor, -1e9), min(upper * shown.factor, 1e9)
-        # Range and suffix make every layout around the box work anew: only when they are other ones.
-        if span != (self.minimum(), self.maximum()):
+        # Range and suffix make every layout around the box work anew: only when they are other ones than those given
+        # last (the box rounds them, so that its own are other ones nearly always).
+        if span != self._span:
+            self._span = span
             self.setRange(*span)
         super().setValue(self._quantity * shown.factor)
         suffix = shown.suffix if self._has_room_for(shown.suffix) else ""
@@ -182,6 +185,15 @@ class QuantityBox(QDoubleSpinBox):
         return f"{self._title}: {texts[0]} lies outside {texts[1]} … {texts[2]}. {self._limits_hint}".rstrip()
 
     # --- keys and wheel --------------------------------------------------------------------------------------------
+
+    def event(self, event: QEvent) -> bool:
+        """Undo and redo are the window's: the box's own are for a text that is being typed."""
+        if event.type() == QEvent.Type.ShortcutOverride and not self.lineEdit().isModified():
+            assert isinstance(event, QKeyEvent)
+            if event.matches(QKeySequence.StandardKey.Undo) or event.matches(QKeySequence.StandardKey.Redo):
+                event.ignore()
+                return False
+        return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Arrows step 1, with Shift 10, with Ctrl 0.1; Escape gives back the last value."""
