@@ -71,7 +71,9 @@ class Session(QObject):
         self._left: dict[str, Experiment] = {}
         self._tracking: Tracking | None = None
         self._merge_stroke = 0
-        self._fleeting = False  # whether what was said last is about something that the next change makes untrue
+        self.continuing = False  # while `changed` tells of the next step of a drag, or of a motion
+        self._fleeting = False  # whether what was said last goes with the next moment of a motion already
+        self._showing_moment = False
         self.gliding = False  # while `changed` tells of a whole new pose: whoever draws may go there smoothly
         self.undo_stack = QUndoStack(self)
 
@@ -107,7 +109,11 @@ class Session(QObject):
         if last is None or not last.continues(key):
             self.undo_stack.push(_Change(self, text, experiment, key))
             return
-        last.extend(experiment)
+        self.continuing = True
+        try:
+            last.extend(experiment)
+        finally:
+            self.continuing = False
         if last.leads_nowhere:
             last.setObsolete(True)
             self.undo_stack.undo()  # which takes an obsolete change out
@@ -139,7 +145,11 @@ class Session(QObject):
     def show_moment(self, q: ArrayLike, text: str, motion: int) -> None:
         """Show a moment of a motion. All moments of the same number in a row are one undo step, back to the first."""
         if not np.array_equal(q, self.q):
-            self._change(text, self._experiment.at(q), f"motion {motion}")
+            self._showing_moment = True
+            try:
+                self._change(text, self._experiment.at(q), f"motion {motion}")
+            finally:
+                self._showing_moment = False
 
     def use_robot(self, robot: Robot) -> None:
         """Take another arm, as it was left when it was last in use."""
@@ -156,7 +166,7 @@ class Session(QObject):
             self.tracking_changed.emit(tracking)
 
     def say(self, text: str, level: str = "info") -> None:
-        """A sentence for the status line; it stays until the next one."""
+        """A sentence for the status line; it stays until the next one, or until an edit makes it old."""
         self._fleeting = False
         self.said.emit(text, level)
 
@@ -170,7 +180,7 @@ class Session(QObject):
         before, self._experiment = self._experiment, experiment
         if experiment is before:
             return
-        if self._fleeting:
+        if self._fleeting or not self._showing_moment:
             self.say("")
         if experiment.robot is not before.robot:
             self.set_tracking(None)

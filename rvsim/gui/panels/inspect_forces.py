@@ -90,7 +90,7 @@ class ForcesPage(InspectPage):
         self.weight.setObjectName("own_weight")
         self.weight.toggled.connect(lambda on: self._take(own_weight=on))
         self.clear = button("wrench_clear", "No force", "Take the wrench and the payload away", self._clear)
-        self.model = TorqueModel(session.robot, preferences)
+        self.model = TorqueModel(session.robot, preferences, self.catch_up)
         self.table = torque_table(self.model)
         self.directions = combo("force_direction", "Direction of the largest force", DIRECTIONS)
         self.directions.setCurrentIndex(self.directions.findData("+z"))

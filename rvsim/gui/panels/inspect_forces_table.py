@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPointF, QRectF, QSize, Qt
@@ -29,10 +30,11 @@ _BAR_HEIGHT = 11.0
 
 
 class TorqueModel(QAbstractTableModel):
-    """One row a joint."""
+    """One row a joint. `catch_up` is called before the numbers are read."""
 
-    def __init__(self, robot: Robot, preferences: Preferences) -> None:
+    def __init__(self, robot: Robot, preferences: Preferences, catch_up: Callable[[], None] = lambda: None) -> None:
         super().__init__()
+        self._catch_up = catch_up
         self._robot, self._preferences = robot, preferences
         self._rows: tuple[TorqueRow, ...] = ()
         self.brief = False  # J2 for the joint, where there is no room for its name
@@ -63,6 +65,7 @@ class TorqueModel(QAbstractTableModel):
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """What stands in a cell; the bar's cell gives its text, and its row for the delegate."""
+        self._catch_up()
         row, column = self._rows[index.row()], index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:

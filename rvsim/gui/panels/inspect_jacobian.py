@@ -63,7 +63,7 @@ class JacobianPage(InspectPage):
             name: (lambda make=make, name=name: self._copied(make(self.shown), name)) for name, make in makers.items()
         }
         self.copy = CopyButton("jacobian_copy", "the Jacobian", formats, session)
-        self.table = JacobianTable(JacobianModel(self))
+        self.table = JacobianTable(JacobianModel(self, self.catch_up))
         self.table.lit.connect(lambda _: self._show_column())
         self.meaning, self.units, self.rank, self.check = (wrapped_label("muted") for _ in range(4))
         self.column, self.note = wrapped_label("title"), wrapped_label("muted")

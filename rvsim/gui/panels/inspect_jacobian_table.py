@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,10 +38,11 @@ class Column(NamedTuple):
 
 
 class JacobianModel(QAbstractTableModel):
-    """The numbers as they are shown; `units` (r, c) go with the tooltips."""
+    """The numbers as they are shown; `units` (r, c) go with the tooltips. `catch_up` is called before they are read."""
 
-    def __init__(self, parent: QObject | None = None) -> None:
+    def __init__(self, parent: QObject | None = None, catch_up: Callable[[], None] = lambda: None) -> None:
         super().__init__(parent)
+        self._catch_up = catch_up
         self._rows: tuple[Row, ...] = ()
         self._columns: tuple[Column, ...] = ()
         self.values: FloatArray = np.empty((0, 0))
@@ -78,6 +80,7 @@ class JacobianModel(QAbstractTableModel):
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """A number as text, and in full in the tooltip."""
+        self._catch_up()
         row, column = index.row(), index.column()
         if role == Qt.ItemDataRole.DisplayRole:
             return self.text(row, column)

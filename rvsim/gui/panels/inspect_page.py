@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent
+from PySide6.QtCore import QEvent, QTimer
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QWidget
 
@@ -12,13 +12,15 @@ from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.scene.primitives import Item
 
+_REST_MS = 60
 SCENE_SETTINGS = NUMBER_SETTINGS | {"theme"}
 
 
 class InspectPage(ReadOutPanel):
     """A page: `refresh()` shows the present experiment and calls `draw(items)` for what belongs into the scene.
 
-    The container tells with `set_seen` whether the page can be seen; until then nothing is worked out.
+    The container tells with `set_seen` whether the page can be seen; until then nothing is worked out. A page that is
+    `always` true is worked out behind others too: in a drag, when the hand rests or somebody reads its table.
     """
 
     title = ""  # on its button
@@ -29,6 +31,8 @@ class InspectPage(ReadOutPanel):
         super().__init__(session, preferences, parent)
         self._stage = stage
         self._seen = False
+        self._later = QTimer(self, singleShot=True, interval=_REST_MS)
+        self._later.timeout.connect(self.catch_up)
         self.setObjectName(f"{self.name}_page")
 
     @property
@@ -52,8 +56,16 @@ class InspectPage(ReadOutPanel):
             self._stage.set_layer(self.name, items)
 
     def _refresh_if_seen(self) -> None:
-        self._stale = not (self._seen or self.always)
-        if not self._stale:
+        self._stale = True
+        if self._seen or (self.always and not self._session.continuing):
+            self.catch_up()
+        elif self.always:
+            self._later.start()
+
+    def catch_up(self) -> None:
+        """Work out what has been put off."""
+        if self._stale:
+            self._stale = False
             self.refresh()
 
     def event(self, event: QEvent) -> bool:
