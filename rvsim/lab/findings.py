@@ -38,7 +38,7 @@ def finding_sentence(report: Report, finding: Finding, units: Units) -> str:
 
 def summary_sentence(report: Report) -> str:
     """The verdict on all of it."""
-    worst = sum(finding.severity == "bad" for finding in report.findings)
+    worst = sum(finding.severity == "bad" and finding.kind != "reach" for finding in report.findings)
     if report.severity == "good":
         return "Nothing speaks against running it."
     if not worst:

@@ -95,6 +95,7 @@ class CheckPage(InspectPage):
 
     def _lay_out(self) -> None:
         self.repair_box = QGroupBox("Repairs that were tried")
+        self.repair_box.hide()
         self._repair_column = QVBoxLayout(self.repair_box)
         self._offered = QVBoxLayout()
         self._offered.setSpacing(6)
@@ -204,7 +205,9 @@ class CheckPage(InspectPage):
                 widget.hide()
                 widget.deleteLater()
         for offer in self.offers:
-            made = button(f"check_repair_{offer.name.replace(' ', '_')}", offer.title, offer.tip, partial(self._apply, offer))
+            made = button(
+                f"check_repair_{offer.name.replace(' ', '_')}", offer.title, offer.tip, partial(self._apply, offer)
+            )
             text = wrapped_label("muted")
             text.setText(offer.tip)
             self._offered.addWidget(made)

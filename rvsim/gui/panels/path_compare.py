@@ -30,7 +30,7 @@ _INTRO = (
     "The path of the Path page by the closed form with the best sequence of branches, and by each numeric solver, "
     "started at every point in its last solution. Source 000 sets out to compare these."
 )
-_SHORT = {"closed form": "Closed form", "newton": "Newton", "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
+_SHORT = {"closed form": "Closed", "newton": "Newton", "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
 _COPY_HEADS = (
     "method", "total_s", "per_point_s", "rms_m", "largest_m", "largest_rotation_rad", "success", "jumps", "iterations",
 )  # fmt: skip
@@ -168,7 +168,7 @@ class ComparePage(InspectPage):
         return (
             ("method", "The closed form, or the numeric solver"),
             ("ms", "Time for all points, in milliseconds"),
-            ("µs/pt", "Time for a point, in microseconds"),
+            ("µs", "Time for a point, in microseconds"),
             (f"max {unit}", "The largest position error over the points found"),
             ("found", "For how many of the points joints were found"),
             ("jumps", "How often the arm leaves the path to change its branch"),
@@ -196,7 +196,7 @@ class ComparePage(InspectPage):
 def _texts(entry: Entry, factor: float) -> tuple[str, ...]:
     milliseconds = 1e3 * entry.seconds
     return (
-        _SHORT.get(entry.contestant.name, "Source 000"),
+        _SHORT.get(entry.contestant.name, "As 000"),
         f"{milliseconds:.1f}" if milliseconds < 100.0 else f"{milliseconds:.0f}",
         f"{1e6 * entry.seconds_per_point:.0f}",
         "–" if math.isnan(entry.largest) else format_scientific(entry.largest * factor),
