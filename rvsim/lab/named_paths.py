@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import UnknownNameError
-from rvsim.experiment import LineTask, PathOrientation
+from rvsim.experiment import SHAPE_KINDS, LineTask, PathOrientation, TrajectoryTask
 from rvsim.lab import drawings
 from rvsim.lab.lines import line_presets
 from rvsim.lab.orientations import SourceRotations, level_rotations, oriented
@@ -171,7 +171,7 @@ def path_entry(name: str) -> NamedPath:
         UnknownNameError: no such path.
     """
     if name not in _BY_NAME:
-        raise UnknownNameError("path", name, path_names())
+        raise UnknownNameError("path", name, tuple(dict.fromkeys((*path_names(), *SHAPE_KINDS))))
     return _BY_NAME[name]
 
 
@@ -188,6 +188,8 @@ def named_path(
 ) -> Path:
     """A path by its name, or through the points of a CSV file (mm, or units as the arm has) if it ends in ".csv".
 
+    The kinds of shapes are names too: "circle", "text" … draw what fits the arm.
+
     Args:
         samples: the number of points; None for the source's own. A file keeps its points.
         orientation: None or "source" for the path's own: that of its source; of a line and a star that of the arm's
@@ -203,6 +205,8 @@ def named_path(
     """
     if name.lower().endswith(".csv"):
         return oriented(robot, _from_file(name, robot), _or_own(orientation, "free"), None, q)
+    if name in SHAPE_KINDS and name not in _BY_NAME:
+        return _shape(name, robot, samples, _or_own(orientation, "source"), q)
     entry = path_entry(name)
     points = entry.draw(_Wish(robot, samples, height, start, end))
     path = Path(entry.name, points, title=entry.title, notes=entry.citation)
@@ -223,6 +227,12 @@ def _or_own(orientation: PathOrientation | None, own: PathOrientation) -> PathOr
 
 def _own_orientation(entry: NamedPath, robot: Robot) -> PathOrientation:
     return "source" if entry.arms else line_presets(robot)[0].orientation
+
+
+def _shape(name: str, robot: Robot, samples: int | None, orientation: PathOrientation, q: ArrayLike | None) -> Path:
+    from rvsim.lab.shape_paths import sampled, task_path  # which places paths of sources too, by this module
+
+    return task_path(robot, sampled(robot, TrajectoryTask(name, orientation), samples), q)
 
 
 def _from_file(name: str, robot: Robot) -> Path:

@@ -204,6 +204,14 @@ def shape_of(robot: Robot, task: TrajectoryTask) -> Shape:
     return SHAPES[task.name].default(robot, *_first_line(robot)) if task.shape is None else task.shape
 
 
+def sampled(robot: Robot, task: TrajectoryTask, samples: int | None) -> TrajectoryTask:
+    """A shape's task with that many points, as it is for None; text and formulas have their own."""
+    shape = shape_of(robot, task)
+    if samples is None or isinstance(shape, TextShape | FormulaShape):
+        return task
+    return replace(task, shape=replace(shape, samples=samples))
+
+
 def placement_of(robot: Robot, task: TrajectoryTask) -> Placement:
     """Where the task's path lies: its own placement; else as its source has it, or a shape by the arm's first line."""
     if task.placement is not None:

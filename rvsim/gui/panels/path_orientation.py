@@ -68,7 +68,7 @@ class OrientationRows(QWidget):
         self._pitch_row, self._turn_rows = QWidget(), QWidget()
         pitch = QHBoxLayout(self._pitch_row)
         pitch.setContentsMargins(0, 0, 0, 0)
-        label = QLabel("ψ above the horizontal")
+        label = QLabel("ψ above level")
         set_role(label, role="muted")
         pitch.addWidget(label)
         pitch.addWidget(self.pitch, 1)
