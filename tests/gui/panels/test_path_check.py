@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton, QWidget
+from pytestqt.qtbot import QtBot
 
 from rvsim.experiment import TrajectoryTask
 from rvsim.gui.motion_control import MotionControl
@@ -70,7 +71,7 @@ def test_the_sources_line_says_which_joints_keep_it_from_7_of_11_points(page_of:
     texts = [row.sentence.text() for row in rows(page_of("rv-m1", "line"))]
     assert texts[0] == "36 %: 4 of 11 points reached."
     assert texts[1] == "Points 1–6: the elbow needs −156.7° … −117.3° and stops at −110°."
-    assert texts[2] == "Point 11: the wrist pitch needs −94.7°, stops at −90°."
+    assert texts[2] == "Point 11: the wrist pitch needs −93.6°, stops at −90°."
 
 
 def test_a_click_on_a_finding_shows_the_arm_at_that_moment(page_of: Make, qtbot: QtBot) -> None:
