@@ -181,6 +181,8 @@ class MainWindow(QMainWindow):
             action.setShortcut(keys)
             edit.insertAction(first, action)
             self.actions_by_name[name] = action
+        self.actions_by_name["undo"].triggered.connect(lambda: self.session.say(f"Undone: {stack.redoText()}."))
+        self.actions_by_name["redo"].triggered.connect(lambda: self.session.say(f"Done again: {stack.undoText()}."))
 
     def _make_status_bar(self, choice: Choice) -> None:
         self.message = ElidedLabel()

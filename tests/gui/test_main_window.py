@@ -170,6 +170,26 @@ def test_undo_walks_back_through_everything(window: MainWindow) -> None:
     assert window.session.experiment is start
 
 
+def test_undo_works_while_the_value_that_was_typed_has_the_focus(qtbot: QtBot, window: MainWindow) -> None:
+    window.activateWindow()
+    box = window.findChild(QWidget, "joint_value_2")
+    box.setFocus()
+    box.selectAll()
+    qtbot.keyClicks(box, "30")
+    qtbot.keyClick(box, Qt.Key.Key_Return)
+    assert np.degrees(window.session.q[1]) == pytest.approx(30.0)
+    qtbot.keyClick(box, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert window.session.q[1] == 0.0
+    assert window.message.text().startswith("Undone")
+
+
+def test_a_sentence_goes_with_the_state_that_it_is_about(window: MainWindow) -> None:
+    window.joints.go_home()
+    assert "at home" in window.message.text()
+    window.session.use_robot(window.library["ur5e"])
+    assert window.message.text() == ""
+
+
 def test_the_floor_is_in_metres_where_they_are_preferred(window: MainWindow) -> None:
     window.preferences.set("length_unit", "m")
     floor = next(item for item in window.scene_view.scene.items if item.key == "floor.numbers")
