@@ -52,6 +52,7 @@ def _prepare_pages(window: MainWindow, setup: Setup) -> None:
     if setup.erratum and source is not None:
         source.choose(setup.erratum)
     if setup.pull is not None and forces is not None:
+        window.stage.load.set_payload(0.0)
         forces.pull = Pull(np.array(setup.pull.wrench), setup.pull.axes)
         select(forces.axes, setup.pull.axes)
         forces.refresh()

@@ -20,6 +20,7 @@ _FULL = 0.42  # of the arm's size: the longest arrow
 _ARC = 0.11  # of the arm's size: the radius of the bent arrow
 _SWEEP = math.radians(250.0)
 _HEAD = 0.06  # of the arm's size
+_WEIGHT_WIDTH = 3.0
 _REACH = 16.0  # [pixels] around the tip that take hold of it
 _ROUND = (1.0, 2.0, 5.0)
 
@@ -27,7 +28,8 @@ _ROUND = (1.0, 2.0, 5.0)
 class WrenchArrows(NamedTuple):
     """A force and a moment (3,) [N, N m] at the tool `origin` (3,), drawn `scale` metres a newton.
 
-    `size` is the arm's [m]; `force_text` and `moment_text` stand at the arrows' ends.
+    `size` is the arm's [m]; `force_text` and `moment_text` stand at the arrows' ends. What hangs at the tool pulls down
+    with `weight` [N]; `mass_text` stands at it.
     """
 
     origin: FloatArray
@@ -37,6 +39,8 @@ class WrenchArrows(NamedTuple):
     size: float
     force_text: str = ""
     moment_text: str = ""
+    weight: float = 0.0
+    mass_text: str = ""
 
     @property
     def tip(self) -> FloatArray:
@@ -66,7 +70,20 @@ def wrench_items(arrows: WrenchArrows, palette: ScenePalette, *, lit: bool = Fal
         f"{_KEY}.moment", arrows.origin, arrows.moment, _SWEEP, _ARC * size, color, palette, width=3.2
     )
     knob = Dots(f"{_KEY}.knob", arrows.tip[None], color, 17.0 if lit else 13.0)
-    return (*bent, *straight, knob, *_labels(arrows, palette))
+    return (*_payload(arrows, palette), *bent, *straight, knob, *_labels(arrows, palette))
+
+
+def _payload(arrows: WrenchArrows, palette: ScenePalette) -> tuple[Item, ...]:
+    """An arrow downwards, drawn as weights are."""
+    if arrows.weight <= 0.0:
+        return ()
+    down = np.array([0.0, 0.0, -arrows.scale * arrows.weight])
+    head = _HEAD * arrows.size
+    drawn = arrow_items(
+        f"{_KEY}.payload", arrows.origin, down, palette.text, palette, width=_WEIGHT_WIDTH, longest_head=head
+    )
+    label = Label(arrows.origin + down, arrows.mass_text, palette.text, (10.0, 4.0), 10.0)
+    return (*drawn, Labels(f"{_KEY}.payload.labels", (label,)))
 
 
 def _labels(arrows: WrenchArrows, palette: ScenePalette) -> tuple[Item, ...]:

@@ -63,7 +63,10 @@ class DynamicsPage(InspectPage):
         self.rates.refused.connect(self._complain)
         self.at_rest = button("dynamics_rest", "At rest", "Set all velocities and accelerations to 0", self._rest)
         self.gravity = self._box("gravity", "gravity", "Gravity", STANDARD_GRAVITY)
-        self.payload = self._box("dynamics_payload", "mass", "Payload at the tool", 0.0)
+        self.gravity.quantity_changed.connect(lambda _: self.refresh())
+        self.payload = self._box("dynamics_payload", "mass", "Payload at the tool", stage.load.payload)
+        self.payload.quantity_changed.connect(stage.load.set_payload)
+        stage.load.changed.connect(self._refresh_if_seen)
         self.place = combo("gravity_place", "Whose gravity", {**PLACES, _FREE: "own value"})
         self.place.activated.connect(lambda _: self._take_place())
         self.model = PartsModel(session.robot, preferences)
@@ -82,7 +85,6 @@ class DynamicsPage(InspectPage):
         box.setObjectName(name)
         box.set_range(0.0, 1e4)
         box.set_quantity(value)
-        box.quantity_changed.connect(lambda _: self.refresh())
         box.refused.connect(self._complain)
         return box
 
@@ -170,7 +172,8 @@ class DynamicsPage(InspectPage):
         self.draw(weight_items(robot, q, self._stage.palette))
 
     def _show_torques(self, robot: Robot, q: FloatArray, qd: FloatArray, qdd: FloatArray) -> None:
-        g, carried = self.gravity.quantity, self.payload.quantity
+        g, carried = self.gravity.quantity, self._stage.load.payload
+        self.payload.set_quantity(carried)
         parts = dynamics_parts(robot, q, qd, qdd, gravity=g, payload=carried)
         self.model.show_values(robot, np.stack([*parts, parts.total], axis=-1))
         kinetic = float(kinetic_energy(robot, q, qd, payload=carried))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, joint_torques, largest_force, payload_wrench
+from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, largest_force, payload_wrench
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
@@ -15,6 +15,8 @@ from rvsim.gui.panels.inspect_forces_table import TorqueModel, fit_table, show_w
 from rvsim.gui.panels.inspect_forces_words import (
     AXES,
     DIRECTIONS,
+    HANGING,
+    besides_text,
     direction_vector,
     largest_text,
     legend,
@@ -48,19 +50,17 @@ _FORMULA_NOTE = "J of the tool in base axes; SI units: m, N, N m."
 
 @dataclass(frozen=True, eq=False)
 class Pull:
-    """What is asked of the arm: a wrench (6,) [N, N m] in `axes` ("base", "tool"), a payload [kg], its own weight."""
+    """What is asked of the arm: a wrench (6,) [N, N m] in `axes` ("base", "tool"), and to hold its own weight."""
 
     wrench: FloatArray = field(default_factory=lambda: np.zeros(6))
     axes: str = "base"
-    payload: float = 0.0
     own_weight: bool = False
 
     def in_base(self, R_base_tool: FloatArray) -> FloatArray:
-        """(6,) in base axes, the payload's weight with it."""
-        wrench = self.wrench
-        if self.axes == "tool":
-            wrench = np.concatenate([R_base_tool @ wrench[:3], R_base_tool @ wrench[3:]])
-        return np.asarray(wrench + payload_wrench(self.payload, STANDARD_GRAVITY))
+        """(6,) in base axes."""
+        if self.axes == "base":
+            return self.wrench
+        return np.concatenate([R_base_tool @ self.wrench[:3], R_base_tool @ self.wrench[3:]])
 
 
 class ForcesPage(InspectPage):
@@ -85,7 +85,8 @@ class ForcesPage(InspectPage):
         self.payload = QuantityBox("mass", preferences, "Payload at the tool")
         self.payload.setObjectName("payload")
         self.payload.set_range(0.0, 1e4)
-        self.payload.quantity_changed.connect(lambda mass: self._take(payload=mass))
+        self.payload.quantity_changed.connect(stage.load.set_payload)
+        stage.load.changed.connect(self._refresh_if_seen)
         self.weight = QCheckBox("The arm holds its own weight too")
         self.weight.setObjectName("own_weight")
         self.weight.toggled.connect(lambda on: self._take(own_weight=on))
@@ -96,6 +97,9 @@ class ForcesPage(InspectPage):
         self.directions.setCurrentIndex(self.directions.findData("+z"))
         self.directions.activated.connect(lambda _: self.refresh())
         self.legend, self.largest, self.message = wrapped_label("muted"), wrapped_label(), wrapped_label()
+        self.hanging = wrapped_label("muted")
+        self.hanging.setText(HANGING)
+        self.hanging.hide()
         self.largest.setObjectName("largest_force")
         self.equations = EquationsView(Typesetter(self))
         self.sources = SourcesButton("dynamics", self)
@@ -138,6 +142,7 @@ class ForcesPage(InspectPage):
         for widget in (self.forces, self.moments):
             column.addWidget(widget)
         column.addLayout(carried)
+        column.addWidget(self.hanging)
         column.addWidget(self.weight)
         column.addWidget(meaning)
         column.addSpacing(6)
@@ -179,11 +184,11 @@ class ForcesPage(InspectPage):
             self._take(wrench=wrench, axes=axes)
 
     def _clear(self) -> None:
-        self._take(wrench=np.zeros(6), payload=0.0)
+        self._stage.load.set_payload(0.0)
+        self._take(wrench=np.zeros(6))
 
     def _on_pulled(self, force: FloatArray) -> None:
-        """The arrow's end has been dragged there: the payload's weight is a part of the arrow."""
-        force = force - payload_wrench(self.pull.payload, STANDARD_GRAVITY)[:3]
+        """The arrow's end has been dragged there."""
         wrench = np.array(self.pull.wrench)
         wrench[:3] = self._R.T @ force if self.pull.axes == "tool" else force
         self._take(wrench=wrench)
@@ -208,14 +213,15 @@ class ForcesPage(InspectPage):
         T, J = pose_and_jacobian(robot, q)
         self._R = T[:3, :3]
         wrench = self.pull.in_base(self._R)
+        carried = payload_wrench(self._stage.load.payload, STANDARD_GRAVITY)
         weight = gravity_torques(robot, q) if self._weighs() else np.zeros(robot.dof)
-        pushed = J.T @ wrench
+        pushed = J.T @ (wrench + carried)
         self._torques = pushed + weight
         self._show_boxes()
         fit_table(self.table)
         self.model.show_rows(robot, torque_rows(robot, pushed, weight))
-        self._show_largest(robot, q, weight)
-        self.equations.show_equations(torque_equations(J, wrench, pushed))
+        self._show_largest(robot, q, weight + J.T @ carried)
+        self.equations.show_equations(torque_equations(J, wrench + carried, pushed))
         self._place_arrows(robot, T, wrench)
 
     def _weighs(self) -> bool:
@@ -233,18 +239,19 @@ class ForcesPage(InspectPage):
     def _show_boxes(self) -> None:
         self.forces.show_values(self.pull.wrench[:3])
         self.moments.show_values(self.pull.wrench[3:])
-        self.payload.set_quantity(self.pull.payload)
+        self.payload.set_quantity(self._stage.load.payload)
+        self.hanging.setVisible(self._stage.load.payload > 0.0)
         show_weight(self.table, self.model, self._weighs())
 
-    def _show_largest(self, robot: Robot, q: FloatArray, weight: FloatArray) -> None:
+    def _show_largest(self, robot: Robot, q: FloatArray, held: FloatArray) -> None:
         asked = direction_vector(self.directions.currentData(), self.pull.wrench)
         found, pure_moment = None, False
         if asked is not None:
             pure_moment = not np.any(asked[:3])
-            in_base = replace(self.pull, wrench=asked, payload=0.0).in_base(self._R)
-            held = weight + joint_torques(robot, q, payload_wrench(self.pull.payload, STANDARD_GRAVITY))
+            in_base = replace(self.pull, wrench=asked).in_base(self._R)
             found = largest_force(robot, q, in_base, ratings(robot), holding=held)
-        self.largest.setText(largest_text(robot, found, pure_moment, self._preferences))
+        besides = besides_text(self._stage.load.payload, self._weighs(), self._preferences)
+        self.largest.setText(largest_text(robot, found, pure_moment, self._preferences, besides))
 
     # --- the scene -------------------------------------------------------------------------------------------------
 
@@ -254,13 +261,19 @@ class ForcesPage(InspectPage):
             scale = self._arrows.scale  # the hand feels the same newtons a millimetre all the way
         else:
             self._before_drag = self.pull
-            scale = arrow_scale(robot.size, max(float(np.linalg.norm(force)), _typical_force(robot)))
+            largest = max(float(np.linalg.norm(force)), self._stage.load.payload * STANDARD_GRAVITY)
+            scale = arrow_scale(robot.size, max(largest, _typical_force(robot)))
         kinds: tuple[Kind, Kind] = ("force", moment_kind(robot))
-        texts = [
+        force_text, moment_text = (
             format_quantity(float(np.linalg.norm(part)), kind, self._preferences) if np.any(part) else ""
             for part, kind in zip((force, moment), kinds, strict=True)
-        ]
-        self._arrows = WrenchArrows(T[:3, 3], force, moment, scale, robot.size, *texts)
+        )
+        mass = self._stage.load.payload
+        mass_text = format_quantity(mass, "mass", self._preferences)
+        weight = mass * STANDARD_GRAVITY
+        self._arrows = WrenchArrows(
+            T[:3, 3], force, moment, scale, robot.size, force_text, moment_text, weight, mass_text
+        )
         self._draw()
 
     def _draw(self) -> None:

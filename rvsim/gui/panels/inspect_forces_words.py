@@ -20,6 +20,9 @@ DIRECTIONS: Mapping[str, str] = {
     "+x": "+x", "-x": "\u2212x", "+y": "+y", "-y": "\u2212y", "+z": "+z", "-z": "\u2212z",
 }  # fmt: skip
 AXES: Mapping[str, str] = {"base": "in base axes", "tool": "in tool axes"}
+HANGING = (
+    "The payload pulls down at the tool; to hold it the tool pushes up with m g, which is added to F in τ = Jᵀ F below."
+)
 _DECIMALS = 2
 _UNIT_VECTORS = dict(zip("xyz", np.eye(3), strict=True))
 
@@ -69,8 +72,17 @@ def direction_vector(name: str, wrench: FloatArray) -> FloatArray | None:
     return np.concatenate([sign * _UNIT_VECTORS[name[1]], np.zeros(3)])
 
 
-def largest_text(robot: Robot, found: LargestForce | None, pure_moment: bool, preferences: Preferences) -> str:
-    """The answer to "how strongly can it push that way?"."""
+def besides_text(payload: float, own_weight: bool, preferences: Preferences) -> str:
+    """What the drives hold while the tool pushes, "" for nothing else."""
+    held = [f"the payload of {format_quantity(payload, 'mass', preferences)}"] * (payload > 0.0)
+    held += ["the arm's own weight"] * own_weight
+    return " and ".join(held)
+
+
+def largest_text(
+    robot: Robot, found: LargestForce | None, pure_moment: bool, preferences: Preferences, besides: str = ""
+) -> str:
+    """The answer to "how strongly can it push that way?", while it holds what stands in `besides`."""
     if found is None:
         return "There is no wrench above: enter one, or choose a direction."
     if found.joint is None:
@@ -84,9 +96,11 @@ def largest_text(robot: Robot, found: LargestForce | None, pure_moment: bool, pr
     limit = format_quantity(rating.value, torque_kind(robot, found.joint), preferences)
     assumed = ", an assumed rating" if rating.assumed else ""
     if found.force == 0.0:
-        return f"None: “{joint.name}” is at its {limit} already{assumed}."
+        with_it = f" with {besides}" if besides else ""
+        return f"None: “{joint.name}” is at its {limit} already{with_it}{assumed}."
     amount = format_quantity(found.force, moment_kind(robot) if pure_moment else "force", preferences)
-    return f"{amount}: then “{joint.name}” reaches its {limit}{assumed}."
+    counted = f" {besides[0].upper()}{besides[1:]} counted in." if besides else ""
+    return f"{amount}: then “{joint.name}” reaches its {limit}{assumed}.{counted}"
 
 
 def rating_text(row: TorqueRow, robot: Robot, joint: int, preferences: Preferences) -> str:

@@ -54,6 +54,8 @@ def test_gravity_and_payload_count(page_of):
     session = page._session
     expected = gravity_torques(session.robot, session.q, gravity=1.62, payload=1.2)
     np.testing.assert_allclose(page.model.values[:, 0], expected, atol=1e-12)
+    page._stage.load.set_payload(0.5)  # on another page
+    assert page.payload.quantity == 0.5
     enter(page, "gravity", 5.0)
     assert page.place.currentText() == "own value"
 
