@@ -41,7 +41,7 @@ _MM = "[mm; units for an arm whose lengths have none]"
 _JOINTS = f'degrees, for a prismatic joint {_MM}; or with the unit behind: "pi/4 rad, 12 cm"'
 _INDEX = "An index in JSON and CSV counts from 0; sentences count points from 1."
 _PANELS = (
-    "path", "program", "inverse", "how", "lab",
+    "path", "check", "program", "compare", "inverse", "how", "lab",
     "jacobian", "velocity", "singular", "forces", "dynamics", "workspace", "source",
     "tool", "matrices", "points", "dh",
 )  # fmt: skip

@@ -33,6 +33,7 @@ from rvsim.gui.renderers.choose import Choice, renderer_factory
 from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.scene_view import SceneView
 from rvsim.gui.session import Session
+from rvsim.gui.sources_menu import make_sources_menu
 from rvsim.gui.stage import Stage
 from rvsim.gui.target import TargetControl
 from rvsim.gui.target_scene import TargetScene
@@ -108,6 +109,9 @@ class MainWindow(QMainWindow):
         assert menu is not None
         menu.addSeparator()
         menu.addMenu(self.docks.make_menu())
+        help_menu = self.findChild(QMenu, "help_menu")
+        assert help_menu is not None
+        self.menuBar().insertMenu(help_menu.menuAction(), make_sources_menu(self))
 
     def _right_panels(self) -> list[tuple[str, str, QWidget]]:
         arguments = (self.session, self.preferences)

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.page_stack import Page
+from rvsim.gui.panels.path_check import CheckPage
+from rvsim.gui.panels.path_compare import ComparePage
 from rvsim.gui.panels.path_program import ProgramPage
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.tracker import PathTracker
 
-_KINDS = ((ProgramPage, "An ordered list of moves: teach, check and run it"),)
+_KINDS = (
+    (CheckPage, "What the path asks of the arm, before it moves, and what would help"),
+    (ProgramPage, "An ordered list of moves: teach, check and run it"),
+    (ComparePage, "The closed form and every numeric solver along the same path"),
+)
 
 
 def path_pages(
