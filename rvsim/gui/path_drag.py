@@ -17,7 +17,7 @@ from rvsim.gui.stage import Stage
 from rvsim.lab.shape_paths import placed_task, placement_of
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene import Ray
-from rvsim.scene.gizmo import Gizmo, Grip, Handle, dragged, gizmo_at, gizmo_items, handle_under, take_hold
+from rvsim.scene.gizmo import GIZMO_KEY, Gizmo, Grip, Handle, dragged, gizmo_at, gizmo_items, handle_under, take_hold
 from rvsim.scene.primitives import Item
 from rvsim.spatial import rotation_from_rpy, rpy_from_rotation, transform
 
@@ -180,7 +180,9 @@ class PathDrag(QObject):
         if gizmo is not None:
             # The arrow of the size has none of the axes' colours for a guide line: it stays among the others.
             held = self._grip.handle.key if self._grip is not None and self._grip.handle.name != SIZE else ""
-            items = gizmo_items(gizmo, self._stage.palette, self._lit, held, self._note())
+            drawn = gizmo_items(gizmo, self._stage.palette, self._lit, held, self._note())
+            # The target may have a gizmo too: no two items of a scene have the same key.
+            items = tuple(replace(item, key=f"{GIZMO_KEY}.path{item.key.removeprefix(GIZMO_KEY)}") for item in drawn)
         self._stage.set_layer(LAYER, items)
 
     def _note(self) -> str:
