@@ -64,7 +64,7 @@ def best_sequence(
         joints: the limits that count.
         with_rotation: whether the orientation belongs to the path.
     """
-    stages = np.flatnonzero(existing(branches).any(axis=1))
+    stages = np.flatnonzero(~np.isnan(branches[..., 0]).all(axis=1))
     if len(stages) == len(branches):
         return _sequence(robot, branches, np.ones(len(stages) - 1, dtype=bool), near, joints, with_rotation)
     q = np.full((len(branches), robot.dof), np.nan)
@@ -101,7 +101,11 @@ def _straight(
     column = straight_column(robot, q, front.cost, adjacent, joints, weights, with_rotation)
     if column is None:
         return None
-    found = _unwrapped(q[:, column], np.concatenate([[True], ~adjacent]), near, joints)
+    if adjacent.all():
+        run = q[:, column]
+        found = joints.nearest_run(run + whole_turns(run, joints.periodic), near)
+    else:
+        found = _unwrapped(q[:, column], np.concatenate([[True], ~adjacent]), near, joints)
     return found if not joints.outside(found).any() else None
 
 

@@ -16,7 +16,7 @@ from rvsim.motion.turns import JointRange, nearest_turn, whole_turns
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_BLOCK = 12  # points whose ways are bounded together
+_BLOCK = 20  # points whose ways are bounded together
 _ROUNDING = 1e-9
 
 
@@ -86,5 +86,7 @@ def _bounds(
 
 def _lengths(steps: FloatArray, joints: JointRange, weights: FloatArray) -> FloatArray:
     """(...) the lengths of joint steps (..., n), each the short way round; NaN where there is none."""
-    way = weights * nearest_turn(steps, joints.periodic)
+    way = nearest_turn(steps, joints.periodic)
+    if not joints.revolute.all():
+        way *= weights
     return np.asarray(np.sqrt(np.einsum("...n,...n->...", way, way)))

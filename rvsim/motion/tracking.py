@@ -68,6 +68,8 @@ def _usable(robot: Robot, path: Path, near: FloatArray, joints: JointRange) -> F
 
     Block by block: a free orientation has hundreds of branches a point.
     """
+    if path.rotations is not None or robot.dof < 4:
+        return _within(branches_on(robot, path, near), near, joints)
     most = _MOST if path.samples <= _BLOCK else _MOST // 2
     pieces: list[FloatArray] = []
     columns: list[int] = []
@@ -90,8 +92,10 @@ def _within(branches: FloatArray, near: FloatArray, joints: JointRange) -> Float
 
 def _tool_points(robot: Robot, q: FloatArray) -> FloatArray:
     """(m, 3) where the tool is, NaN where q is."""
-    points = np.full((len(q), 3), np.nan)
     known = existing(q)
+    if known.all():
+        return np.asarray(forward_kinematics(robot, q)[:, :3, 3])
+    points = np.full((len(q), 3), np.nan)
     points[known] = forward_kinematics(robot, q[known])[:, :3, 3]
     return points
 

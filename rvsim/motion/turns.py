@@ -79,7 +79,10 @@ def existing(q: FloatArray) -> NDArray[np.bool_]:
 
 def nearest_turn(difference: FloatArray, periodic: NDArray[np.bool_]) -> FloatArray:
     """Differences (..., n) of joints; a periodic one goes the short way round."""
-    return np.asarray(np.where(periodic, difference - _TURN * np.round(difference / _TURN), difference))
+    turned = np.rint(difference * (1.0 / _TURN))
+    turned *= -_TURN if periodic.all() else np.where(periodic, -_TURN, 0.0)
+    turned += difference
+    return np.asarray(turned)
 
 
 def whole_turns(q: FloatArray, periodic: NDArray[np.bool_]) -> FloatArray:
