@@ -6,30 +6,46 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QTableWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QTableWidget, QWidget
 from pytestqt.qtbot import QtBot
 
+from rvsim import load_robot
+from rvsim.experiment import Experiment, LineTask
 from rvsim.experiment.program import JointMove, LineMove
-from rvsim.gui.app import build_window
 from rvsim.gui.import_dialog import ImportDialog, open_import
-from rvsim.gui.main_window import MainWindow
+from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.preferences import Preferences
+from rvsim.gui.session import Session
+from rvsim.gui.tracker import PathTracker
 from rvsim.lab.motion_table import motion_csv
 from rvsim.motion import joint_move
 from rvsim.playback.curves import curves_of
+from rvsim.robot import Robot
+
+
+def experiment(robot: Robot) -> Experiment:
+    return Experiment(robot, robot.home, LineTask((0.11, 0.0, 0.13), (0.23, 0.0, 0.33)))
+
+
+class Window(QWidget):
+    """All of a window that an import needs."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.session = Session(experiment(load_robot("rv-m1")), experiment)
+        self.motion = MotionControl(self.session, Preferences(), self)
+        self.tracker = PathTracker(self.session, self.motion, self)
 
 
 @pytest.fixture
-def window(qtbot: QtBot) -> MainWindow:
-    made = build_window(Preferences(), robot="rv-m1")
-    made.preferences.set("animated", False)
+def window(qtbot: QtBot) -> Window:
+    made = Window()
     qtbot.addWidget(made)
-    with qtbot.waitExposed(made):
-        made.show()
+    made.show()
     return made
 
 
-def opened(window: MainWindow, file: Path, text: str) -> ImportDialog:
+def opened(window: Window, file: Path, text: str) -> ImportDialog:
     file.write_text(text, encoding="utf-8")
     dialog = open_import(window, window.session, window.motion, window.tracker, file)
     assert dialog is not None
@@ -51,7 +67,7 @@ def press(dialog: ImportDialog) -> None:
 
 
 @pytest.mark.parametrize("units", ["si", "screen"])
-def test_an_exported_motion_comes_back_at_its_times(window: MainWindow, tmp_path: Path, units: str) -> None:
+def test_an_exported_motion_comes_back_at_its_times(window: Window, tmp_path: Path, units: str) -> None:
     robot = window.session.robot
     motion = joint_move(robot, robot.home, np.add(robot.home, (0.5, 0.2, -0.4, 0.1, 0.0)), seconds=2.0)
     dialog = opened(window, tmp_path / "m.csv", motion_csv(curves_of(robot, motion, samples=101), units))
@@ -66,7 +82,7 @@ def test_an_exported_motion_comes_back_at_its_times(window: MainWindow, tmp_path
     assert not dialog.isVisible()
 
 
-def test_joints_become_moves_behind_those_of_the_program_undoably(window: MainWindow, tmp_path: Path) -> None:
+def test_joints_become_moves_behind_those_of_the_program_undoably(window: Window, tmp_path: Path) -> None:
     text = "10;20;-30;0;0\n11,5;21;-31;0;0\n"
     dialog = opened(window, tmp_path / "q.csv", text)
     assert dialog.table.delimiter == ";"
@@ -79,7 +95,7 @@ def test_joints_become_moves_behind_those_of_the_program_undoably(window: MainWi
     assert window.session.experiment.program == ()
 
 
-def test_points_become_the_trajectory_or_lines(window: MainWindow, tmp_path: Path) -> None:
+def test_points_become_the_trajectory_or_lines(window: Window, tmp_path: Path) -> None:
     text = "z,x,y\n0.2,0.3,-0.1\n0.2,0.31,0.0\n0.25,0.3,0.1\n"
     dialog = opened(window, tmp_path / "p.csv", text)
     assert dialog.content == "points"
@@ -94,7 +110,7 @@ def test_points_become_the_trajectory_or_lines(window: MainWindow, tmp_path: Pat
     assert window.session.experiment.program[0] == LineMove((0.3, -0.1, 0.2))
 
 
-def test_columns_are_chosen_and_the_first_row_is_a_header_or_not(window: MainWindow, tmp_path: Path) -> None:
+def test_columns_are_chosen_and_the_first_row_is_a_header_or_not(window: Window, tmp_path: Path) -> None:
     dialog = opened(window, tmp_path / "p.txt", "7 300 0 200\n8 310 0 210\n")
     choose(dialog, "import_content", "points")
     assert dialog.findChild(QTableWidget, "import_preview").columnCount() == 4
@@ -114,14 +130,14 @@ def test_columns_are_chosen_and_the_first_row_is_a_header_or_not(window: MainWin
         ("t,q1,q2,q3,q4,q5\n1,0,0,-1,0,0\n1,0,0,-2,0,0\n", "row 3, column 1 (t): found 1 s"),
     ],
 )
-def test_a_spoilt_file_is_named_by_row_and_column(window: MainWindow, tmp_path: Path, text: str, message: str) -> None:
+def test_a_spoilt_file_is_named_by_row_and_column(window: Window, tmp_path: Path, text: str, message: str) -> None:
     dialog = opened(window, tmp_path / "q.csv", text)
     assert message in summary(dialog)
     assert not dialog.findChild(QPushButton, "import_start").isEnabled()
     dialog.reject()
 
 
-def test_a_file_without_a_table_is_told_of(window: MainWindow, tmp_path: Path) -> None:
+def test_a_file_without_a_table_is_told_of(window: Window, tmp_path: Path) -> None:
     said: list[str] = []
     window.session.said.connect(lambda text, level: said.append(f"{level}: {text}"))
     for name, data in (("empty.csv", b""), ("picture.csv", b"\x89PNG\xff\xfe")):
