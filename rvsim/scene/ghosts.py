@@ -12,9 +12,9 @@ from rvsim.kinematics import link_transforms
 from rvsim.robot import Robot
 from rvsim.scene.build import Look, arm_items
 from rvsim.scene.palette import ScenePalette
-from rvsim.scene.points import frames
+from rvsim.scene.points import link_corners
 from rvsim.scene.primitives import Color, Item, Label, Labels, Polyline, Segments
-from rvsim.scene.stick import Pose, link_polylines, posed
+from rvsim.scene.stick import Pose, posed
 
 FloatArray = NDArray[np.float64]
 
@@ -48,8 +48,8 @@ def ghost_items(robot: Robot, ghosts: Sequence[Ghost], palette: ScenePalette, lo
         return ()
     T = link_transforms(robot, np.stack([ghost.q for ghost in ghosts]))
     poses = [posed(robot, each) for each in T]
-    pairs = list(zip(ghosts, poses, strict=True))
-    items = [_outline(ghost, pose, palette) for ghost, pose in pairs if not (ghost.within or ghost.here)]
+    outside = [i for i, ghost in enumerate(ghosts) if not (ghost.within or ghost.here)]
+    items = _outlines(robot, T[outside], [ghosts[i] for i in outside], palette)
     faint = [ghost.within and not (ghost.lit or ghost.here) for ghost in ghosts]
     items += _links(robot, T[faint], palette) if any(faint) else []
     for ghost in ghosts:
@@ -84,20 +84,26 @@ def _distinct(lines: Sequence[FloatArray]) -> FloatArray:
 
 def _bent_links(robot: Robot, T: FloatArray) -> list[tuple[int, FloatArray]]:
     """(joint that moves it, points (b, k, 3)) for each piece, as `link_polylines` has them for one pose."""
-    origins, a = T[:, :, :3, 3], robot.dh[:, 2, None]
+    origins, corners = T[:, :, :3, 3], link_corners(robot, T)
     if robot.convention == "standard":
-        corners = origins[:, 1:] - a * T[:, 1:, :3, 0]
         return [(i, np.stack([origins[:, i], corners[:, i], origins[:, i + 1]], axis=1)) for i in range(robot.dof)]
-    corners = origins[:, :-1] + a * T[:, :-1, :3, 0]
     before = [(i - 1, np.stack([origins[:, i], corners[:, i]], axis=1)) for i in range(robot.dof)]
     return [*before, *((i, np.stack([corners[:, i], origins[:, i + 1]], axis=1)) for i in range(robot.dof))]
 
 
-def _outline(ghost: Ghost, pose: Pose, palette: ScenePalette) -> Item:
-    points = np.concatenate([*(points for _, points in link_polylines(pose)), frames(pose.robot, pose.T)[-1:, :3, 3]])
-    return Polyline(
-        f"{GHOST_KEY}{ghost.key}.outside", points, palette.ghost.faded(_OUTSIDE_ALPHA), _OUTSIDE_WIDTH, dashed=True
-    )
+def _outlines(robot: Robot, T: FloatArray, ghosts: Sequence[Ghost], palette: ScenePalette) -> list[Item]:
+    """One dashed line a ghost, through all its links to its tool; T (b, n + 1, 4, 4)."""
+    if not ghosts:
+        return []
+    origins, corners = T[:, :, :3, 3], link_corners(robot, T)
+    bent = np.stack([origins[:, :-1], corners, origins[:, 1:]], axis=2).reshape(len(T), -1, 3)
+    points = np.concatenate([bent, (T[:, -1:] @ robot.T_flange_tool)[..., :3, 3]], axis=1)
+    moves = np.abs(np.diff(points, axis=1)).max(axis=2, initial=0.0) > 1e-9
+    color = palette.ghost.faded(_OUTSIDE_ALPHA)
+    return [
+        Polyline(f"{GHOST_KEY}{ghost.key}.outside", line[np.append(True, moved)], color, _OUTSIDE_WIDTH, dashed=True)
+        for ghost, line, moved in zip(ghosts, points, moves, strict=True)
+    ]
 
 
 def _color(robot: Robot, joint: int, palette: ScenePalette) -> Color:

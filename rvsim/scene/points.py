@@ -33,14 +33,15 @@ def frames(robot: Robot, T: FloatArray) -> FloatArray:
 
 
 def link_corners(robot: Robot, T: FloatArray) -> FloatArray:
-    """(n, 3) where each DH row turns from its d into its a (standard) or from its a into its d (modified) [m].
+    """(…, n, 3) where each DH row turns from its d into its a (standard) or from its a into its d (modified) [m].
 
-    A link drawn over this corner looks like the arm, where the straight line between two origins would not.
+    Of link transforms T (…, n + 1, 4, 4). A link drawn over this corner looks like the arm, where the straight line
+    between two origins would not.
     """
     a = robot.dh[:, 2, None]
     if robot.convention == "standard":
-        return np.asarray(T[1:, :3, 3] - a * T[1:, :3, 0])
-    return np.asarray(T[:-1, :3, 3] + a * T[:-1, :3, 0])
+        return np.asarray(T[..., 1:, :3, 3] - a * T[..., 1:, :3, 0])
+    return np.asarray(T[..., :-1, :3, 3] + a * T[..., :-1, :3, 0])
 
 
 def joint_points(robot: Robot, T: FloatArray, corners: FloatArray) -> FloatArray:

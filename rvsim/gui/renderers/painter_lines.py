@@ -78,7 +78,8 @@ def _subdivided(eye: FloatArray, lens: Lens) -> FloatArray:
     if counts.max() == 1:
         return eye
     firsts = np.repeat(np.arange(len(counts)), counts)
-    shares = np.concatenate([np.arange(count) / count for count in counts.tolist()])[:, None]
+    begins = np.cumsum(counts) - counts
+    shares = ((np.arange(len(firsts)) - begins[firsts]) / counts[firsts])[:, None]
     inner = eye[firsts] + shares * (eye[firsts + 1] - eye[firsts])
     return np.concatenate([inner, eye[-1:]])
 
