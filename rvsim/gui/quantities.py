@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Literal, NamedTuple
 
 from rvsim.gui.preferences import Preferences
@@ -57,8 +58,13 @@ _DISPLAYS: dict[tuple[str, str], Display] = {
 def display(kind: Kind, preferences: Preferences) -> Display:
     """How that kind is shown under the present preferences."""
     units = {"angle": preferences["angle_unit"], "length": preferences["length_unit"]}
-    shown = _DISPLAYS[kind, units.get(kind.partition("_")[0], "")]
-    return shown._replace(decimals=shown.decimals + preferences["extra_decimals"])
+    return _display(kind, units.get(kind.partition("_")[0], ""), preferences["extra_decimals"])
+
+
+@lru_cache(maxsize=256)
+def _display(kind: Kind, unit: str, extra_decimals: int) -> Display:
+    shown = _DISPLAYS[kind, unit]
+    return shown._replace(decimals=shown.decimals + extra_decimals)
 
 
 def shown_units(preferences: Preferences) -> Units:

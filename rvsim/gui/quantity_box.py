@@ -87,7 +87,9 @@ class QuantityBox(QDoubleSpinBox):
         suffix = shown.suffix if self._has_room_for(shown.suffix) else ""
         if suffix != self.suffix():
             self.setSuffix(suffix)
-        self.lineEdit().setText(self.textFromValue(self.value()) + self.suffix())
+        text = self.textFromValue(self.value()) + self.suffix()
+        if text != self.lineEdit().text() or self.lineEdit().isModified():
+            self.lineEdit().setText(text)
         self.setToolTip(f"{self._title}: {self._quantity * shown.factor:.12g}{shown.suffix}")
         self.blockSignals(blocked)
 
