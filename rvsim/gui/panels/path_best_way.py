@@ -154,5 +154,6 @@ class BestWaySection(QGroupBox):
 
 
 def _short(label: str) -> str:
-    """The branch in a narrow column."""
-    return label.replace("shoulder", "sh.").replace("elbow", "el.").replace("wrist", "wr.")
+    """The branch in a narrow column: "right, no-flip, up" for "right shoulder, wrist no-flip, elbow up"."""
+    words = (word for word in label.replace(",", " ,").split() if word not in ("shoulder", "elbow", "wrist"))
+    return " ".join(words).replace(" ,", ",")
