@@ -39,12 +39,14 @@ class Measures:
         lost: `fading` where it is lost, the rank being below min(m, n); else None. What the arm can never do, having
             fewer joints than rows, is not counted as lost.
         never: (m, max(0, m − n)) unit motions that no joint makes here for want of joints, besides what is lost.
+        missing: (m, m − rank) an orthonormal basis of all motions that no joint makes here.
     """
 
     singular_values: FloatArray
     fading: FloatArray
     lost: FloatArray | None
     never: FloatArray
+    missing: FloatArray
 
     @property
     def sigma_min(self) -> float:
@@ -173,7 +175,8 @@ def _measures(robot: Robot, q: FloatArray, J: FloatArray, rows: tuple[int, ...])
         opened = _opened(robot, q, list(rows), U_null, Vt[rank:count])
         fading, spare = opened[:, 0], opened[:, count - rank :]
     fading = fading * math.copysign(1.0, fading[np.argmax(np.abs(fading))])
-    return Measures(sigma, fading, fading if sigma[-1] <= RANK else None, spare)
+    missing = U[:, int((sigma > RANK).sum()) :]
+    return Measures(sigma, fading, fading if sigma[-1] <= RANK else None, spare, missing)
 
 
 def _opened(robot: Robot, q: FloatArray, rows: list[int], U_null: FloatArray, V_null: FloatArray) -> FloatArray:

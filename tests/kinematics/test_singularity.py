@@ -208,6 +208,23 @@ def test_a_motion_lost_on_its_own_asks_no_joint_speed_that_there_is(name):
         assert np.linalg.norm(found.J @ qd - twist) > 0.05
 
 
+@pytest.mark.parametrize(
+    ("pose", "expected"),
+    [((0, -90, 0, -90, -90, 0), ["move", "move"]), ((0, -90, 0, -90, 0, 0), ["move", "move", "turn"])],
+)
+def test_where_several_motions_are_lost_at_once_each_is_named_along_an_axis(pose, expected):
+    robot, q = load_robot("ur5e"), np.deg2rad(pose)
+    found = singularity(robot, q)
+    motions = lost_motions(found.whole, robot.size)
+    assert sorted(motion.kind for motion in motions) == expected
+    assert found.rank == 6 - len(motions)
+    for motion in motions:
+        assert np.abs(motion.direction).max() == pytest.approx(1.0)
+        force = motion.direction if motion.kind == "move" else np.zeros(3)
+        moment = np.cross(motion.offset, force) if motion.kind == "move" else motion.direction
+        np.testing.assert_allclose(np.concatenate([force, moment]) @ found.J, 0.0, atol=1e-9)
+
+
 def test_the_planar_arm_is_judged_by_its_own_task():
     robot = load_robot("planar")
     found = singularity(robot, [0.5, 0.0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
@@ -37,6 +38,7 @@ from rvsim.kinematics import (
     SingularFamily,
     Singularity,
     families_known,
+    forward_kinematics,
     go_to_singularity,
     lost_motions,
     singular_families,
@@ -261,7 +263,9 @@ class SingularPage(InspectPage):
 
 
 def _lost(found: Singularity) -> tuple[LostMotion, ...]:
-    return lost_motions(_judged(found), found.robot.size)
+    T = forward_kinematics(found.robot, found.q)
+    turning = found.J[3:].T[found.robot.is_revolute]
+    return lost_motions(_judged(found), found.robot.size, np.concatenate([np.eye(3), T[:3, :3].T, turning]))
 
 
 def _judged(found: Singularity) -> Measures:
