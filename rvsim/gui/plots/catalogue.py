@@ -152,7 +152,7 @@ PLOTS: tuple[PlotKind, ...] = (
     PlotKind("jerk", "q‴", "Jerks of the joints", _rates("Joint jerks", "jerk", "/s³")),
     PlotKind("tool", "Tool", "Where the tool is, and where the path wants it", _place),
     PlotKind("speed", "Speed", "How fast the tool goes", _speed),
-    PlotKind("torque", "Torque", "What the joints must give", _torque),
-    PlotKind("sigma", "σ min", "How near to a singularity", _sigma),
-    PlotKind("deviation", "Deviation", "How far the tool is from the path", _deviation),
+    PlotKind("torque", "τ", "Torques: what the joints must give", _torque),
+    PlotKind("sigma", "σ", "Smallest singular value: how near to a singularity", _sigma),
+    PlotKind("deviation", "Off path", "Deviation: how far the tool is from the path", _deviation),
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,6 +34,12 @@ if TYPE_CHECKING:
 _MOST_SHOWN = 6
 _IN_ROW = 3
 _EMPTY = "No motion yet: press Track line, or track a trajectory, and its curves are drawn here."
+_READOUT_TIP = (
+    "Values at the cursor of the plot that the mouse was in last, and the largest of the whole motion. "
+    "▾ in a plot: near a singularity, or a jump to another branch."
+)
+_DECIMALS = 2
+_NARROW = 170  # [pixels] a plot narrower than this gets a row of its own
 _SETTINGS = {"theme", "angle_unit", "length_unit", "presentation"}
 
 
@@ -45,6 +52,7 @@ class PlotsPanel(QWidget):
         self._session, self._motion, self._preferences = session, motion, preferences
         self._curves: Curves | None = None
         self._stale = True
+        self._read = ""
         self.plots: dict[str, TimePlot] = {}
         self._buttons = {kind.name: self._button(kind) for kind in PLOTS}
         self.readout = QLabel()
@@ -63,7 +71,7 @@ class PlotsPanel(QWidget):
         motion.loaded.connect(self._on_loaded)
         motion.moved.connect(self._on_moved)
         session.tracking_changed.connect(lambda _tracking: self._on_loaded())
-        preferences.changed.connect(lambda name: self._on_loaded() if name in _SETTINGS else None)
+        preferences.changed.connect(self._on_preference)
         self.setMinimumHeight(150)
 
     def _button(self, kind: PlotKind) -> QToolButton:
@@ -128,6 +136,11 @@ class PlotsPanel(QWidget):
         if self.isVisible():
             self._later.start()
 
+    def _on_preference(self, name: str) -> None:
+        """The same curves in other colours, units or letters."""
+        if name in _SETTINGS and self.isVisible() and not self._stale:
+            QTimer.singleShot(0, self, self._draw)  # when the theme is worn
+
     def showEvent(self, event: QShowEvent) -> None:
         """Catch up with what happened while hidden."""
         super().showEvent(event)
@@ -160,12 +173,13 @@ class PlotsPanel(QWidget):
             plot = self.plots.pop(name)
             self._grid.removeWidget(plot)
             plot.deleteLater()
-        columns = min(_IN_ROW, len(wanted)) or 1
+        columns = min(_IN_ROW, len(wanted), max(self.width() // _NARROW, 1)) or 1
         for place, name in enumerate(wanted):
             if name not in self.plots:
                 self.plots[name] = TimePlot(self._preferences, self)
                 self.plots[name].setObjectName(f"plot_{name}")
                 self.plots[name].picked.connect(self._motion.seek)
+                self.plots[name].entered.connect(partial(self._read_from, name))
             self._grid.addWidget(self.plots[name], place // columns, place % columns)
         self._draw()
 
@@ -182,16 +196,28 @@ class PlotsPanel(QWidget):
         self._show_values()
 
     def _show_values(self) -> None:
-        """The values of the first plot at the cursor: the legend, with numbers."""
-        first = next(iter(self.plots.values()), None)
-        if first is None:
+        """The values at the cursor of the plot that the mouse was in last: the legend, with numbers."""
+        plot = self.plots.get(self._read) or next(iter(self.plots.values()), None)
+        if plot is None:
             self.readout.clear()
             return
+        unit = f" {plot.drawing.unit}" if plot.drawing.unit else ""
         parts = [
-            f'<span style="color:{color}">■</span> {name.partition(" ")[0]} {format_number(value, 2)}'
-            for name, color, value in first.value_texts()
+            f'<span style="color:{color}">■</span> {name.partition(" ")[0]} {format_number(value, _DECIMALS)}'
+            for name, color, value in plot.value_texts()
         ]
+        largest = plot.largest()
+        if largest is not None:
+            name, value, time = largest
+            at = f"({name.partition(' ')[0]}, at {format_number(time, 2)} s)"
+            parts.append(f"largest {format_number(value, _DECIMALS)}{unit} {at}")
         self.readout.setText("&nbsp; ".join(parts))
+        self.readout.setToolTip(_READOUT_TIP)
+
+    def _read_from(self, name: str) -> None:
+        """Read out the plot under the mouse."""
+        self._read = name
+        self._show_values()
 
 
 def _marks(curves: Curves) -> tuple[float, ...]:

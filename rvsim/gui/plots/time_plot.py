@@ -11,6 +11,7 @@ from PySide6.QtCore import QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
+    QEnterEvent,
     QMouseEvent,
     QPainter,
     QPaintEvent,
@@ -38,9 +39,11 @@ class TimePlot(QWidget):
 
     Signals:
         picked(time): the mouse pressed or dragged at a time [s].
+        entered(): the mouse has come.
     """
 
     picked = Signal(float)
+    entered = Signal()
 
     def __init__(self, preferences: Preferences, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -59,7 +62,7 @@ class TimePlot(QWidget):
         self._later = QTimer(self, singleShot=True, interval=0)  # a window that is being resized paints once a frame
         self._later.timeout.connect(self.repaint_curves)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setMinimumSize(150, 84)
+        self.setMinimumSize(96, 84)
         self.setCursor(Qt.CursorShape.SplitHCursor)
         self.setToolTip("Click or drag to go to that moment")
 
@@ -98,10 +101,28 @@ class TimePlot(QWidget):
         self._picture = self.plot.grab()
         self.update()
 
+    @property
+    def drawing(self) -> Drawing:
+        """What is shown."""
+        return self._drawing
+
     def value_texts(self) -> list[tuple[str, str, float]]:
         """(name, colour, value at the cursor) of each curve that is not dashed, in shown units."""
-        index = int(np.clip(np.searchsorted(self._times, self._time), 0, len(self._times) - 1))
-        return [(line.name, line.color, float(line.values[index])) for line in self._drawing.lines if not line.dashed]
+        theme = THEMES[self._preferences["theme"]]
+        return [
+            (line.name, _visible(line.color, theme).name(), float(np.interp(self._time, self._times, line.values)))
+            for line in self._drawing.lines
+            if not line.dashed
+        ]
+
+    def largest(self) -> tuple[str, float, float] | None:
+        """(name, value, time [s]) of the largest of all values without their signs, None where there is none."""
+        found = [line for line in self._drawing.lines if not line.dashed and np.isfinite(line.values).any()]
+        if not found:
+            return None
+        line = max(found, key=lambda line: float(np.nanmax(np.abs(line.values))))
+        at = int(np.nanargmax(np.abs(line.values)))
+        return line.name, float(line.values[at]), float(self._times[at])
 
     def _dress_axes(self, theme: Theme) -> None:
         for side in ("bottom", "left"):
@@ -113,7 +134,7 @@ class TimePlot(QWidget):
         self.plot.showGrid(x=True, y=True, alpha=0.15)
         unit = f" [{self._drawing.unit}]" if self._drawing.unit else ""
         size = f"{self.font().pointSizeF():.1f}pt"
-        self.plot.setTitle(f"{self._drawing.title}{unit} over t [s]", color=theme.text, size=size)
+        self.plot.setTitle(f"{self._drawing.title}{unit}", color=theme.text, size=size)
 
     def _is_near(self, band: Band) -> bool:
         """Whether its curve comes near to the limit: all limits of all joints at once would hide the curves."""
@@ -149,6 +170,8 @@ class TimePlot(QWidget):
             painter.drawText(room, Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, self._drawing.empty)
             return
         view = self.plot.getViewBox().sceneBoundingRect()
+        painter.setPen(QColor(theme.muted))
+        painter.drawText(QPointF(6.0, self.height() - 5.0), "t [s]")
         for mark in self._marks:
             x = self._x_of(mark)
             painter.setPen(QColor(theme.error))
@@ -165,6 +188,11 @@ class TimePlot(QWidget):
         view = self.plot.getViewBox().sceneBoundingRect()
         share = (event.position().x() - view.left()) / max(view.width(), 1.0)
         self.picked.emit(float(np.clip(share, 0.0, 1.0)) * float(self._times[-1]))
+
+    def enterEvent(self, event: QEnterEvent) -> None:
+        """Its values are those that are read out."""
+        super().enterEvent(event)
+        self.entered.emit()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Go to that moment."""
@@ -208,6 +236,7 @@ def _span(lines: Sequence[Line], bands: Sequence[Band]) -> tuple[float, float]:
 def _visible(color: str, theme: Theme) -> QColor:
     """A joint's colour, darker on white and lighter on black, so that yellow can be seen too."""
     shown = QColor(color)
-    if not theme.dark and shown.lightnessF() > 0.5:
-        return shown.darker(135)
-    return shown.lighter(140) if theme.dark and shown.lightnessF() < 0.4 else shown
+    bright = 0.2126 * shown.redF() + 0.7152 * shown.greenF() + 0.0722 * shown.blueF()
+    if theme.dark:
+        return shown.lighter(150) if bright < 0.35 else shown
+    return shown.darker(160) if bright > 0.75 else shown.darker(112) if bright > 0.55 else shown

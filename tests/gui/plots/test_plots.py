@@ -105,3 +105,25 @@ def test_an_arm_without_masses_has_no_torques_and_says_where_to_enter_them() -> 
     curves = curves_of(arm, joint_move(arm, arm.home, arm.home + 0.1))
     assert curves.torque is None
     assert "Dynamics" in next(kind for kind in PLOTS if kind.name == "torque").draw(curves, Preferences()).empty
+
+
+def test_the_plots_fit_a_small_screen(qtbot: QtBot, window: MainWindow) -> None:
+    window.resize(1024, 600)
+    qtbot.waitUntil(lambda: window.width() == 1024)
+    window.findChild(QToolButton, "plot_tool_button").setChecked(True)
+    qtbot.waitUntil(lambda: "tool" in window.plots.plots)
+    for plot in window.plots.plots.values():
+        qtbot.waitUntil(
+            lambda plot=plot: plot.mapTo(window.plots, plot.rect().bottomRight()).x() <= window.plots.width()
+        )
+
+
+def test_the_largest_value_is_told_with_its_joint_and_time(window: MainWindow) -> None:
+    plot = window.plots.plots["qd"]
+    name, value, time = plot.largest()
+    speeds = np.degrees(window.motion.player.trajectory.at(time).qd)
+    joint = int(name[1]) - 1
+    assert np.abs(speeds).argmax() == joint
+    assert speeds[joint] == pytest.approx(value, rel=1e-6)
+    window.plots._read_from("qd")
+    assert "°/s" in window.plots.readout.text()
