@@ -117,7 +117,7 @@ class MainWindow(QMainWindow):
         arguments = (self.session, self.preferences)
         beside = path_pages(*arguments, self.stage, self.tracker, self.motion)
         tip = "Lines and trajectories, and what came of tracking them"
-        path = (Page("path", "Track", tip, PathPanel(*arguments, self.tracker)), *beside)
+        path = (Page("path", "Track", tip, PathPanel(*arguments, self.tracker, self.stage)), *beside)
         inverse = (
             Page("inverse", "Solve", "Every branch for a wanted pose, and why not", self._make_inverse()),
             Page("how", "How", "The closed form, step by step with this target's numbers", HowPanel(*arguments)),
