@@ -21,7 +21,7 @@ from rvsim.motion.tracking_result import Tracking
 from rvsim.motion.trajectory import Law, Stretch, Trajectory, joint_move, trajectory_of
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
-from rvsim.spatial import rot_z, rotation_from_rpy, rotation_from_vector, rotation_vector
+from rvsim.spatial import rot_y, rot_z, rotation_from_rpy, rotation_from_vector, rotation_vector
 
 ProblemKind = Literal["pose", "joints", "limits", "path", "branch", "tolerance", "no closed form"]
 TOLERANCE = 1e-4  # how far the tool may be beside its line or arc, in sizes of the arm
@@ -32,6 +32,7 @@ _BETWEEN = 4  # places on each piece where the tool is looked at
 _DOUBLINGS = 3
 _SHORTEST = 1e-3  # [s]
 _SLOWEST = 0.01  # share of the speed
+_IN_PLANE = 1e-6  # of a unit axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,8 +203,10 @@ class _Planner:
         round_z = rot_z(np.arctan2(points[:, 1], points[:, 0])) if self.robot.dof == 5 else np.eye(3)[None]
         first = round_z[0].T @ T[:3, :3]
         last = round_z[-1].T @ rotation_from_rpy(move.rpy) if move.tool == "turn" else first
-        turned = rotation_from_vector(share * rotation_vector(last @ first.T)) @ first
-        return np.asarray(round_z @ turned)
+        between = _pitched_and_rolled(first, last, share) if self.robot.dof == 5 else None
+        if between is None:
+            between = rotation_from_vector(share * rotation_vector(last @ first.T)) @ first
+        return np.asarray(round_z @ between)
 
     def _along(self, q: FloatArray, path: Path) -> Stretch:
         """From q through all points but the first, where the arm is already, in whatever branch it is in."""
@@ -230,6 +233,22 @@ def _way(start: FloatArray, move: LineMove | ArcMove, samples: int) -> FloatArra
         return np.asarray((1.0 - share) * start + share * np.array(move.to))
     points = arc_through(start, move.via, move.to, samples)
     return points if len(points) == samples else np.asarray((1.0 - share) * start + share * np.array(move.to))
+
+
+def _pitched_and_rolled(first: FloatArray, last: FloatArray, share: FloatArray) -> FloatArray | None:
+    """(m, 3, 3) from one orientation to another with the tool axis in the xz plane all the way, as a 5R arm has it.
+
+    Each is Ry(pitch) Rz(roll), and both angles change evenly. None where the axis of one of them leaves the plane.
+    """
+    if max(abs(first[1, 2]), abs(last[1, 2])) > _IN_PLANE:
+        return None
+    pitches, rolls = [], []
+    for R in (first, last):
+        pitches.append(math.atan2(R[0, 2], R[2, 2]))
+        level = rot_y(-pitches[-1]) @ R
+        rolls.append(math.atan2(level[1, 0], level[0, 0]))
+    pitch, roll = (a + share[:, 0] * math.remainder(b - a, math.tau) for a, b in (pitches, rolls))
+    return np.asarray(rot_y(pitch) @ rot_z(roll))
 
 
 def _slowed(stretch: Stretch, speed: float) -> Stretch:

@@ -89,6 +89,17 @@ def test_a_kept_tool_keeps_its_orientation_and_a_turned_one_ends_as_it_should() 
     np.testing.assert_allclose(rpy_from_rotation(end[:3, :3]), (3.0, 0.2, 0.1), atol=1e-9)
 
 
+@pytest.mark.parametrize("name", ["rv-m1", "al5b"])
+def test_the_tool_of_a_5r_arm_turns_to_any_orientation_that_it_can_have(name: str) -> None:
+    robot, (q, _, _) = load_robot(name), reachable(name)
+    other = q + (robot.limits[:, 1] - robot.limits[:, 0]).clip(max=6.0) * (-0.06, 0.03, 0.02, 0.08, -0.1)
+    T = forward_kinematics(robot, other)
+    plan = plan_program(robot, q, [LineMove(tuple(T[:3, 3]), "turn", tuple(rpy_from_rotation(T[:3, :3])))])
+    assert plan.complete, plan.problem
+    end = forward_kinematics(robot, plan.trajectory.q(plan.trajectory.duration))
+    np.testing.assert_allclose(end, T, atol=1e-6)
+
+
 def test_half_the_speed_takes_twice_the_time() -> None:
     goal = tuple(np.add(load_robot("rv-m1").home, (0.3, 0.0, -0.2, 0.0, 0.0)))
     quick, slow = (planned("rv-m1", JointMove(goal, speed=speed)).trajectory for speed in (0.8, 0.4))

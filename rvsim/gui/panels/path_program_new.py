@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from rvsim.experiment import Experiment
-from rvsim.experiment.program import ArcMove, Gripper, JointMove, LineMove, Move, Program, Triple, Wait
+from rvsim.experiment.program import ArcMove, Gripper, JointMove, LineMove, Move, Program, ToolRule, Triple, Wait
 from rvsim.kinematics import forward_kinematics
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
+from rvsim.spatial import rpy_from_rotation
 
 _ARC_HEIGHT = 0.35  # of the chord: where a new arc passes at first
+_FEWEST_JOINTS_TO_POINT = 5
 _SHORTEST_CHORD = 0.1  # sizes: for its height, where it begins and ends in one place
 
 
@@ -18,10 +20,13 @@ def new_move(kind: str, experiment: Experiment, index: int) -> Move:
     """A move of that kind to where the arm is now, to be put before the move of that index."""
     before = experiment.program[:index]
     here = _place(experiment.robot, experiment.q)
+    # Whoever drove the arm there wants the tool as it is there, if the arm can turn it at all.
+    tool: ToolRule = "turn" if experiment.robot.dof >= _FEWEST_JOINTS_TO_POINT else "keep"
+    rpy = _triple(rpy_from_rotation(forward_kinematics(experiment.robot, experiment.q)[:3, :3]))
     if kind == "line":
-        return LineMove(here)
+        return LineMove(here, tool, rpy)
     if kind == "arc":
-        return ArcMove(_over(experiment.robot, _end_of(before, experiment), here), here)
+        return ArcMove(_over(experiment.robot, _end_of(before, experiment), here), here, tool, rpy)
     if kind == "joint":
         return JointMove(tuple(experiment.q.tolist()))
     return Wait() if kind == "wait" else Gripper(0.0 if _opening_after(before) > 0.0 else 1.0)
