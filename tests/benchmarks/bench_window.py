@@ -31,6 +31,7 @@ def main() -> int:
         ("drag step: inverse, table, ghosts and frame, UR5e, 1280×720, p95", "≤ 16 ms", ("drag", "ur5e")),
         *((f"drag step: the same of the {title}, p95", "≤ 16 ms", ("drag", name)) for name, title in _OTHERS.items()),
         ("drag step beyond the reach, the arm creeping, UR5e, p95", "≤ 16 ms", ("beyond", "ur5e")),
+        ("inspector: numbers, both ellipsoids and frame, UR5e, p95", "≤ 16 ms", ("inspector", "ur5e")),
         ("first window painted, warm, median of 5", "≤ 1.0 s", ("startup",)),
         ("resident memory after 10,000 frames", "≤ 280 MB, flat", ("memory",)),
     ]  # fmt: skip
@@ -68,7 +69,7 @@ def child(arguments: list[str]) -> None:
 
     app = make_application(["rvsim"])
     renderer = arguments[1] if mode == "frame" else "auto"
-    robot = arguments[1] if mode in ("drag", "beyond") else "rv-m1"
+    robot = arguments[1] if mode in ("drag", "beyond", "inspector") else "rv-m1"
     window = build_window(Preferences(), robot=robot, renderer=renderer)
     painted: list[float] = []
     window.scene_view.painted.connect(lambda _: painted.append(time.perf_counter()))
@@ -81,6 +82,8 @@ def child(arguments: list[str]) -> None:
         print(json.dumps({"seconds": time.time() - started}))
     elif mode in ("drag", "beyond"):
         print(json.dumps(_drag_times(app, window, painted, beyond=mode == "beyond")))
+    elif mode == "inspector":
+        print(json.dumps(_inspector_times(app, window, painted)))
     elif mode == "frame":
         print(json.dumps(_frame_times(app, window, painted)))
     else:
@@ -114,6 +117,24 @@ def _frame_times(app: object, window: object, painted: list[float]) -> dict[str,
         times.append((painted[-1] - start) * 1e3)
     name = window.scene_view.renderer.description  # type: ignore[attr-defined]
     return {**_spread(times), "renderer": name}
+
+
+def _inspector_times(app: object, window: object, painted: list[float]) -> dict[str, object]:
+    """The Singular page is seen with both ellipsoids; from a change of a joint to the painted frame."""
+    from PySide6.QtWidgets import QDockWidget
+
+    from rvsim.gui.page_stack import PageStack
+    from rvsim.gui.panels.inspect_singular import SingularPage
+
+    window.findChild(QDockWidget, "inspect_dock").raise_()  # type: ignore[attr-defined]
+    window.findChild(PageStack, "inspect_pages").show_page("singular")  # type: ignore[attr-defined]
+    page = window.findChild(SingularPage)  # type: ignore[attr-defined]
+    page.velocity.setChecked(True)
+    page.force.setChecked(True)
+    _until(app, lambda: page.seen)
+    times = _frame_times(app, window, painted)
+    assert page.kinds == ("velocity", "force"), "both ellipsoids must be there"
+    return times
 
 
 def _drag_times(app: object, window: object, painted: list[float], beyond: bool) -> dict[str, object]:
@@ -173,7 +194,7 @@ def _resident_mb() -> float:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 2 and sys.argv[1] in ("frame", "drag", "beyond", "startup", "memory"):
+    if len(sys.argv) > 2 and sys.argv[1] in ("frame", "drag", "beyond", "inspector", "startup", "memory"):
         child(sys.argv[1:])
     else:
         sys.exit(main())
