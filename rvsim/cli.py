@@ -15,12 +15,13 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, get_args
 
 import numpy as np
 
 from rvsim import __version__
 from rvsim.errors import RvsimError
+from rvsim.experiment import PathOrientation
 from rvsim.expressions import evaluate_in
 from rvsim.files import load_robot, robot_names, user_robots
 from rvsim.kinematics import forward_kinematics, jacobian
@@ -138,9 +139,7 @@ def _add_track_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--to-mm", metavar='"x,y,z"', help=f"where the line ends {_MM}")
     parser.add_argument("--samples", type=_samples, help="the number of points")
     parser.add_argument("--height-mm", metavar="z", help="of the letter divided by 40")
-    parser.add_argument(
-        "--orientation", choices=("down", "free", "keep", "source", "normal", "pitch", "turn"), help="of the tool"
-    )
+    parser.add_argument("--orientation", choices=get_args(PathOrientation), help="of the tool")
     _add_near(parser)
     parser.add_argument("--ignore-limits", action="store_true", help="leave the joint limits out of account")
     parser.add_argument("--csv", type=_output, metavar="FILE", help="write the joints, a row a point")

@@ -29,6 +29,15 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("save_robot", "&File", "Save robot file as…", "Write this arm as a .toml file", Key.SaveAs),
     ActionSpec("save_picture", "&File", "Save picture…", "Save the scene as a picture", "Ctrl+Shift+P", before=True),
     ActionSpec("save_csv", "&File", "Save path as CSV…", "Save the tracked path with its joints", "Ctrl+Shift+E"),
+    ActionSpec("save_motion", "&File", "Save motion as CSV…", "Joints, their rates and the tool, as shown", "Ctrl+E"),
+    ActionSpec("save_motion_si", "&File", "Save motion as CSV in SI…", "The same in radians and metres", "Ctrl+Alt+E"),
+    ActionSpec(
+        "save_script", "&File", "Save as Python script…", "Works it out anew with NumPy alone", "Ctrl+Alt+P"
+    ),
+    ActionSpec("save_animation", "&File", "Save animation…", "The motion as GIF, APNG or WebP", "Ctrl+Alt+A"),
+    ActionSpec("import_table", "&File", "Import joints or points…", "From a CSV file", "Ctrl+Alt+I", before=True),
+    ActionSpec("open_program", "&File", "Open program…", "Read a program of moves", "Ctrl+Alt+O"),
+    ActionSpec("save_program", "&File", "Save program as…", "Write the program of moves", "Ctrl+Alt+S"),
     ActionSpec("quit", "&File", "Quit", "Close rvsim", "Ctrl+Q", before=True),
     ActionSpec("copy_pose_text", "&Edit", "Copy pose as text", "Joints and tool pose", "Ctrl+Shift+C", before=True),
     ActionSpec("copy_pose_numpy", "&Edit", "Copy pose as NumPy", "Joints and tool, full precision", "Ctrl+Shift+N"),
@@ -69,6 +78,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("ignore_limits", "&Robot", "Ignore limits", "Let joints go beyond their limits", "Ctrl+I", True),
     ActionSpec("track_line", "&Path", "Track line", "Move the tool along the line", "Ctrl+L"),
     ActionSpec("track_trajectory", "&Path", "Track trajectory", "Move the tool along the trajectory", "Ctrl+T"),
+    ActionSpec("run_program", "&Path", "Run program", "Do the moves of the program one after the other", "Ctrl+Alt+R"),
     ActionSpec("clear_path", "&Path", "Clear path", "Take the path out of the scene", "Ctrl+Shift+X"),
     ActionSpec("play", "&Path", "Play or pause", "Run or hold the motion", "F5", before=True),
     ActionSpec("stop", "&Path", "Stop", "Stop the motion where it is", "Esc"),

@@ -15,7 +15,11 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox
 from rvsim.errors import RvsimError
 from rvsim.files.atomic import write_atomically
 from rvsim.gui.actions import shortcut_table
+from rvsim.gui.animation_dialog import AnimationDialog
 from rvsim.gui.diagnostics import diagnostics
+from rvsim.gui.exports import ask_motion_csv, ask_script
+from rvsim.gui.import_dialog import ask_import
+from rvsim.gui.panels.path_program import ProgramPage
 from rvsim.gui.panels.user_robot import ask_what_to_open, ask_where_to_save, opened, saved
 from rvsim.gui.picture import save_image
 from rvsim.gui.quantities import format_quantity, joint_kind
@@ -100,6 +104,14 @@ class Commands(QObject):
             "save_robot": self.save_robot,
             "save_picture": self.save_picture,
             "save_csv": self.save_csv,
+            "save_motion": lambda: ask_motion_csv(window, self._session, motion),
+            "save_motion_si": lambda: ask_motion_csv(window, self._session, motion, "si"),
+            "save_script": lambda: ask_script(window, self._session, motion),
+            "save_animation": self.save_animation,
+            "import_table": lambda: ask_import(window, self._session, motion, window.tracker),
+            "open_program": lambda: self._program().ask_open(),
+            "save_program": lambda: self._program().ask_save(),
+            "run_program": lambda: self._program().run(),
             "quit": window.close,
             "copy_pose_text": lambda: self._copy_pose(matrix_text),
             "copy_pose_numpy": lambda: self._copy_pose(matrix_numpy),
@@ -155,13 +167,30 @@ class Commands(QObject):
         playing = self._window.motion.player.playing
         there = self._window.motion.player.trajectory is not None
         actions["stop"].setEnabled(playing)
-        for name in ("play", "step_forward", "step_back"):
+        for name in ("play", "step_forward", "step_back", "save_motion", "save_motion_si", "save_animation"):
             actions[name].setEnabled(there)
+        actions["save_script"].setEnabled(there or self._session.tracking is not None)
         for name in ("save_csv", "clear_path"):
             actions[name].setEnabled(self._session.tracking is not None)
 
     def _more_decimals(self, step: int) -> None:
         self._preferences.set("extra_decimals", min(max(self._preferences["extra_decimals"] + step, 0), 4))
+
+    # --- programs and motions ---------------------------------------------------------------------------------------
+
+    def _program(self) -> ProgramPage:
+        """The page of the program, in front: what comes of it is said there."""
+        self._window.docks.show_panel("program")
+        page = self._window.findChild(ProgramPage)
+        assert page is not None
+        return page
+
+    def save_animation(self) -> None:
+        """Ask how the motion is to be written as an animated picture."""
+        window = self._window
+        dialog = AnimationDialog(window, self._session, window.motion, window.stage, self._preferences)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.show()
 
     # --- files -----------------------------------------------------------------------------------------------------
 

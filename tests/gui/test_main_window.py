@@ -20,7 +20,14 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.text_dialog import TextDialog
 
 # These ask for a file or a name, or end the program: they are tested through what stands behind their dialogs.
-ASKING = {"open_robot", "save_robot", "save_picture", "save_csv", "save_pose", "quit"}
+ASKING = {"open_robot", "save_robot", "save_picture", "save_csv", "save_pose", "quit"} | {
+    "save_motion",
+    "save_motion_si",
+    "save_script",
+    "import_table",
+    "open_program",
+    "save_program",
+}
 
 
 @pytest.fixture
@@ -37,26 +44,27 @@ def pixels(image: QImage) -> np.ndarray:
     return np.frombuffer(rgba.constBits(), np.uint8).reshape(rgba.height(), rgba.width(), 4)[..., :3].astype(int)
 
 
-@pytest.mark.parametrize("name", sorted({spec.name for spec in ACTIONS} - ASKING - set(SWITCHES)))
-def test_every_command_can_be_triggered(window: MainWindow, name: str) -> None:
-    window.tracker.track_line()
-    window.motion.pause()
-    window.actions_by_name[name].trigger()
-    for box in QApplication.topLevelWidgets():
-        if isinstance(box, TextDialog):
-            assert box.browser.toPlainText()
-            assert box.height() <= window.height()
-            box.close()
+def test_every_command_can_be_triggered(window: MainWindow) -> None:
+    for name in sorted({spec.name for spec in ACTIONS} - ASKING - set(SWITCHES)):
+        window.tracker.track_line()
+        window.motion.pause()
+        window.actions_by_name[name].trigger()
+        for box in QApplication.topLevelWidgets():
+            if isinstance(box, TextDialog):
+                assert box.browser.toPlainText(), name
+                assert box.height() <= window.height()
+                box.close()
 
 
-@pytest.mark.parametrize("name", SWITCHES)
-def test_every_switch_sets_its_preference(window: MainWindow, name: str) -> None:
-    action, switch = window.actions_by_name[name], SWITCHES[name]
-    action.setChecked(not action.isChecked())
-    if action.isChecked():
-        assert window.preferences[switch.preference] == switch.on
-    elif switch.off is not None:
-        assert window.preferences[switch.preference] == switch.off
+def test_every_switch_sets_its_preference(window: MainWindow) -> None:
+    for name, switch in SWITCHES.items():
+        action = window.actions_by_name[name]
+        for _ in range(2):
+            action.setChecked(not action.isChecked())
+            if action.isChecked():
+                assert window.preferences[switch.preference] == switch.on, name
+            elif switch.off is not None:
+                assert window.preferences[switch.preference] == switch.off, name
 
 
 def test_every_command_has_keys_and_no_two_share_them(window: MainWindow) -> None:
