@@ -6,6 +6,7 @@
     ├── UnknownRobotError      a name that is no built-in arm and no file
     ├── RobotFileError         a robot file that cannot be read, with its path, table and key
     ├── UnknownNameError       a name outside a closed list (a path, a tool, an orientation)
+    ├── LetterError            a text that the pen cannot write
     ├── PathFileError          a file of points that cannot be read, with its row and column
     ├── ProgramFileError       a program that cannot be read, with its line and key
     ├── FileWriteError         a file that cannot be written, with its path and the reason
@@ -85,6 +86,17 @@ class UnknownNameError(RvsimError, LookupError):
     def __init__(self, kind: str, name: str, known: Sequence[str]) -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
         super().__init__(f"No {kind} {name!r}. {did_you_mean(name, known)}")
+
+
+class LetterError(RvsimError, LookupError):
+    """A text that the pen cannot write: a letter that its font has not, or no letter at all."""
+
+    def __init__(self, letter: str) -> None:
+        self.letter = letter
+        known = "It knows the Latin letters with and without accents, digits and the usual signs."
+        super().__init__(
+            f"The pen cannot write “{letter}”. {known}" if letter else "Type a letter or more to be written."
+        )
 
 
 class PathFileError(RvsimError, ValueError):

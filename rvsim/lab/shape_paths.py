@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rvsim.errors import ExpressionError, FormulaError, ShapeError
+from rvsim.errors import ExpressionError, FormulaError, LetterError
 from rvsim.experiment import SHAPE_KINDS, Placement, Shape, TrajectoryTask
 from rvsim.experiment.shapes import (
     ArcShape,
@@ -57,7 +57,7 @@ class ShapeKind(NamedTuple):
 def _text(shape: TextShape) -> Drawing:
     lines = text_strokes(shape.text, shape.height)
     if not lines:
-        raise ShapeError("text", "(at least 1 letter,)", (0,))
+        raise LetterError("")
     return shapes.strokes(lines, shape.spacing, shape.lift)
 
 
@@ -231,7 +231,8 @@ def task_path(robot: Robot, task: TrajectoryTask, q: ArrayLike | None = None) ->
         q: (n,) the present pose, whose orientation some paths keep or begin with; None for home.
 
     Raises:
-        UnknownNameError: no such path, or a letter that cannot be written.
+        UnknownNameError: no such path.
+        LetterError: a text that cannot be written.
         FormulaError: a formula that cannot be worked out.
         ShapeError: a shape without points.
         PathFileError, OSError: a file that cannot be read.

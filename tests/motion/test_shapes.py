@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import unicodedata
 from itertools import pairwise
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rvsim.errors import ShapeError, UnknownNameError
+from rvsim.errors import LetterError, ShapeError
 from rvsim.motion import shapes, spline_points
 from rvsim.motion.lettering import glyphs, text_strokes
 from rvsim.spatial import rotation_from_rpy, transform
@@ -146,9 +147,17 @@ def test_letters_stay_in_their_box_and_the_pen_is_up_just_between_strokes(text: 
     assert down == pytest.approx(sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in lines))
 
 
+@pytest.mark.parametrize("name", ["Zoë", "José", "Łukasz", "Bjørn", "Weiß", "Dvořák", "Gül", "François", "Nguyễn"])
+def test_names_with_accents_can_be_written(name: str) -> None:
+    plain = "".join(letter for letter in name if letter.isascii())
+    assert len(text_strokes(name, 0.1)) > len(text_strokes(plain, 0.1))
+    for one, other in zip(text_strokes(unicodedata.normalize("NFD", name), 0.1), text_strokes(name, 0.1), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
 def test_what_cannot_be_drawn_is_named() -> None:
-    with pytest.raises(UnknownNameError, match="ß"):
-        text_strokes("Maß", 0.1)
+    with pytest.raises(LetterError, match="“Ж”"):
+        text_strokes("Ж", 0.1)
     with pytest.raises(ShapeError):
         shapes.regular_polygon(2, 0.1, 10)
     with pytest.raises(ShapeError):
