@@ -45,8 +45,11 @@ class _PointsModel(QAbstractTableModel):
     def __init__(self, robot: Robot, preferences: Preferences, parent: QObject) -> None:
         super().__init__(parent)
         self._kind, self._preferences = length_kind(robot), preferences
-        preferences.changed.connect(lambda _: self.layoutChanged.emit())
+        preferences.changed.connect(self._on_preference)  # not a lambda: it would outlive the model
         self.points: FloatArray = np.empty((0, 3))
+
+    def _on_preference(self, _name: str) -> None:
+        self.layoutChanged.emit()
 
     @property
     def shown(self) -> Display:
