@@ -43,6 +43,22 @@ def inverse_kinematics_batch(robot: Robot, T: ArrayLike, *, project: bool = Fals
     return q
 
 
+def inverse_kinematics_rows(robot: Robot, T: FloatArray) -> FloatArray:
+    """`inverse_kinematics_batch` as it is worked out, joint by joint: T (m, 4, 4) -> (branches, n, m).
+
+    Raises:
+        NoClosedFormError: the arm has no closed form.
+    """
+    form = closed_form(robot)
+    if len(T) <= BLOCK:
+        return solve_block(form, T, robot.home)
+    q = np.empty((len(form.labels), robot.dof, len(T)))
+    for start in range(0, len(T), BLOCK):
+        block = slice(start, start + BLOCK)
+        q[:, :, block] = solve_block(form, T[block], robot.home)
+    return q
+
+
 def nearest_feasible_poses(robot: Robot, T: ArrayLike) -> FloatArray:
     """T (m, 4, 4) of a 5R arm with each orientation turned as little as the arm needs, each place kept.
 

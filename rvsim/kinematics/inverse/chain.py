@@ -23,6 +23,7 @@ from rvsim.spatial.arrays import FloatArray
 
 TOLERANCE = 1e-9  # what counts as zero in a DH table [m, rad]
 TURN = 2.0 * math.pi
+_AT_ONCE = 16384  # numbers that the cache holds with what is made of them
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,8 +88,8 @@ class Chain:
         if (self.sign < 0.0).any():
             values *= self.sign[:, None]
         turning = self.robot.is_revolute
-        if values.shape[-1] == 1:  # one call for one pose; for many, parts that stay in the cache
-            values[:, turning] = wrap(values[:, turning])
+        if values.size <= _AT_ONCE:  # few calls for few poses; for many, parts that stay in the cache
+            values -= (TURN * turning)[:, None] * np.rint(values * (1.0 / TURN))
         else:
             for i in np.flatnonzero(turning):
                 wrap(values[:, i])

@@ -15,20 +15,19 @@ from numpy.typing import NDArray
 
 from rvsim.kinematics.inverse.chain import Chain, wrap
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, intersecting, long_enough, parallel, right_angle
-from rvsim.kinematics.inverse.elbow import Mask, elbow_up, empty_rows, erase, solve_elbow
-from rvsim.kinematics.inverse.spherical_wrist import plane_entries
+from rvsim.kinematics.inverse.elbow import Mask, elbow_up, empty_rows, solve_elbow
 from rvsim.kinematics.inverse.waist import Side, solve_waist
 from rvsim.kinematics.inverse.words import ELBOW, combine, side_names, wrist_names
 from rvsim.spatial.arrays import FloatArray
 
-Rows = NDArray[np.intp]
+Rows = tuple[NDArray[np.intp], ...]
 SINGULAR = 5e-10  # sin θ5: below it axis 6 is parallel to axes 2, 3, 4, and θ6 is free
 UNCERTAIN = 1e-4  # sin θ5: below it rounding moves θ6 so far that a stretched elbow may seem out of reach
 HARMLESS = 1e-10  # sin θ5 times a turn of θ6: what such a turn changes of the pose
 
 
 class _Wrist(NamedTuple):
-    """One of two wrists: the elbow's end (u, w) in the plane, bend = θ2 + θ3 + θ4, and θ6."""
+    """Two wrists of each side: the elbow's end (u, w) in the plane, bend = θ2 + θ3 + θ4, and θ6; (..., m)."""
 
     u: FloatArray
     w: FloatArray
@@ -58,51 +57,70 @@ class ParallelAxes(ClosedForm):
         self.d1, self.d5, self.d6 = (float(chain.d[i]) for i in (0, 4, 5))
         self.offset = float(chain.d[1:4].sum())
         self.up = elbow_up(self.a2, self.a3)
+        self._up = np.array([self.up, -self.up])[:, None, None]
         self.labels = combine(side_names(chain, ("left shoulder", "right shoulder")), wrist_names(chain, 4), ELBOW)
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
-        """Shoulder, then wrist, then elbow."""
+        """Shoulder, then wrist, then elbow; a numpy call works on all sides, wrists and elbows at once."""
         x, y, z = S[:, 3] - self.d6 * S[:, 2]
         waist = solve_waist(x, y, self.offset, self.chain.size, float(free[0]))
+        theta1, c, s, out = waist.both
         q = empty_rows(2, 2, 2, 6, x.size)
-        for k, side in enumerate(waist.sides):
-            q[k, :, :, 0] = side.theta1
-            self._solve_side(S, side, z - self.d1, q[k], waist.missing, (-1.0) ** k * self.up, float(free[5]))
+        q[..., 0, :] = theta1[:, None, None]
+        wrist = self._wrists(S, Side(theta1, c, s, out - self.a1), z - self.d1, q, float(free[5]))
+        q[..., 5, :] = wrist.theta6[:, :, None]
+        missing = self._fold(wrist, q) | waist.missing
+        if missing.any():
+            side, flip, row = np.nonzero(missing)
+            q[side, flip, :, :, row] = np.nan
         return q.reshape(8, 6, -1)
 
-    def _solve_side(
-        self, S: FloatArray, side: Side, w: FloatArray, q: FloatArray, missing: Mask, up: float, free6: float
-    ) -> None:
-        """θ2 … θ6 into q (2, 2, 6, m). Axis 4 (z4) lies in the plane: it is s6 x + c6 y of the flange's x and y."""
-        (xr, yr, _), (xz, yz, _), (xn, yn, an) = plane_entries(S, side)
-        u = side.out - self.a1
+    def _wrists(self, S: FloatArray, side: Side, w: FloatArray, q: FloatArray, free6: float) -> _Wrist:
+        """Both wrists of both sides (2, 2, m), and θ5 into q. Axis 4 (z4) lies in the plane.
+
+        It is s6 x + c6 y of the flange's x and y.
+        """
+        c, s, u = side.c[:, None], side.s[:, None], side.out
+        xr, yr = (c * S[0, :2] + s * S[1, :2]).swapaxes(0, 1)
+        xn, yn, an = (s * S[0, :3] - c * S[1, :3]).swapaxes(0, 1)
+        xz, yz = S[2, :2]
         sine = np.sqrt(xn * xn + yn * yn)
         c6, s6 = xn / sine, -yn / sine
-        uncertain = np.flatnonzero(sine < UNCERTAIN)
-        if uncertain.size:
+        uncertain = sine < UNCERTAIN
+        doubtful = uncertain.any()
+        if doubtful:
             free = sine < SINGULAR
             c6[free], s6[free] = math.cos(free6), math.sin(free6)
         r4, z4 = s6 * xr + c6 * yr, s6 * xz + c6 * yz
         along, across = self.d5 * r4 - self.a4 * z4, self.d5 * z4 + self.a4 * r4
-        theta5, theta6, bend = np.arctan2(sine, -an), np.arctan2(s6, c6), np.arctan2(r4, -z4)
-        for flip, branches in enumerate(q):
-            sign, turn = 1.0 - 2.0 * flip, math.pi * flip
-            wrist = _Wrist(u - sign * along, w - sign * across, bend + turn, theta6 + turn)
-            if uncertain.size:
-                sense = np.where(xr * yz - xz * yr > 0.0, -1.0, 1.0)
-                self._turn_into_reach(wrist, u, w, uncertain, sine, sense)
-            branches[:, 4], branches[:, 5] = sign * theta5, wrist.theta6
-            erase(branches, self._fold(wrist, branches, up) | missing)
+        theta5 = np.arctan2(sine, -an)[:, None]
+        q[:, 0, :, 4], q[:, 1, :, 4] = theta5, -theta5
+        half = (np.arctan2(r4, -z4), np.arctan2(s6, c6))
+        wrist = _Wrist(_both(u, -along), _both(w, -across), *(_turned(angle) for angle in half))
+        if doubtful:
+            sense = np.where(xr * yz - xz * yr > 0.0, -1.0, 1.0)
+            self._turn_all_into_reach(wrist, u, np.broadcast_to(w, u.shape), np.nonzero(uncertain), sine, sense)
+        return wrist
 
-    def _fold(self, wrist: _Wrist, q: FloatArray, up: float) -> Mask:
-        """θ2, θ3, θ4 into q (2, 6, m)."""
+    def _fold(self, wrist: _Wrist, q: FloatArray) -> Mask:
+        """θ2, θ3, θ4 into q (2, 2, 2, 6, m); where the elbow does not reach (2, 2, m)."""
         elbow = solve_elbow(wrist.u, wrist.w, self.a2, self.a3)
-        for branch, sign in zip(q, (up, -up), strict=True):
-            np.subtract(elbow.direction, sign * elbow.lean, out=branch[1])
-            np.multiply(elbow.bend, sign, out=branch[2])
-            np.subtract(wrist.bend, branch[1], out=branch[3])
-            branch[3] -= branch[2]
+        lean, bend = self._up * elbow.lean, self._up * elbow.bend
+        theta2, theta3 = q[..., 1, :], q[..., 2, :]
+        np.subtract(elbow.direction, lean, out=theta2[:, :, 0])
+        np.add(elbow.direction, lean, out=theta2[:, :, 1])
+        theta3[:, :, 0] = bend
+        np.negative(bend, out=theta3[:, :, 1])
+        theta4 = np.subtract(wrist.bend[:, :, None], theta2, out=q[..., 3, :])
+        theta4 -= theta3
         return elbow.missing
+
+    def _turn_all_into_reach(
+        self, wrist: _Wrist, u: FloatArray, w: FloatArray, rows: Rows, sine: FloatArray, sense: FloatArray
+    ) -> None:
+        """Either wrist of each side; u, w, sine, sense (2, m)."""
+        for flip in range(2):
+            self._turn_into_reach(_Wrist(*(entry[:, flip] for entry in wrist)), u, w, rows, sine, sense)
 
     def _turn_into_reach(
         self, wrist: _Wrist, u: FloatArray, w: FloatArray, rows: Rows, sine: FloatArray, sense: FloatArray
@@ -130,3 +148,19 @@ class ParallelAxes(ClosedForm):
         cosines = ((squares - nearest**2) * scale, (squares - farthest**2) * scale)
         least, most = (np.arccos(np.clip(cosine, -1.0, 1.0)) for cosine in cosines)
         return least, most
+
+
+def _both(place: FloatArray, step: FloatArray) -> FloatArray:
+    """(2, 2, m) place + step and place − step, of (2, m) and what broadcasts with it."""
+    both = np.empty((2, *step.shape))
+    np.add(place, step, out=both[:, 0])
+    np.subtract(place, step, out=both[:, 1])
+    return both
+
+
+def _turned(angle: FloatArray) -> FloatArray:
+    """(2, 2, m) an angle (2, m) and half a turn more."""
+    both = np.empty((2, *angle.shape))
+    both[:, 0] = angle
+    np.add(angle, math.pi, out=both[:, 1])
+    return both

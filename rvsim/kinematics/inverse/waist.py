@@ -23,10 +23,14 @@ class Side(NamedTuple):
 
 
 class Waist(NamedTuple):
-    """Both sides, and where the point is nearer to the axis than the plane's offset."""
+    """Both sides, where the point is nearer to the axis than the plane's offset, and both sides as an array.
+
+    `both` (4, 2, m) holds the entries of a `Side`, of each side.
+    """
 
     sides: tuple[Side, Side]
     missing: Mask
+    both: FloatArray
 
 
 def solve_waist(x: FloatArray, y: FloatArray, offset: float, size: float, free: float) -> Waist:
@@ -41,11 +45,19 @@ def solve_waist(x: FloatArray, y: FloatArray, offset: float, size: float, free: 
     turn = np.arctan2(offset, out) if offset else np.zeros(1)
     scale = 1.0 / square
     x_out, y_out, x_side, y_side = x * out * scale, y * out * scale, x * offset * scale, y * offset * scale
-    front = Side(azimuth + turn, x_out - y_side, y_out + x_side, out)
-    back = Side(azimuth + (math.pi - turn), -x_out - y_side, x_side - y_out, -out)
+    both = np.empty((4, 2, x.size))
+    front, back = Side(*both[:, 0]), Side(*both[:, 1])
+    np.add(azimuth, turn, out=front.theta1)
+    np.add(azimuth, math.pi - turn, out=back.theta1)
+    np.subtract(x_out, y_side, out=front.c)
+    np.subtract(-x_out, y_side, out=back.c)
+    np.add(y_out, x_side, out=front.s)
+    np.subtract(x_side, y_out, out=back.s)
+    front.out[:] = out
+    np.negative(out, out=back.out)
     if not offset:
         _set_free(front, back, square <= (_ON_AXIS * size) ** 2, free)
-    return Waist((front, back), inside < -2.0 * COSINE_TOLERANCE * offset * offset)
+    return Waist((front, back), inside < -2.0 * COSINE_TOLERANCE * offset * offset, both)
 
 
 def _set_free(front: Side, back: Side, on_axis: Mask, free: float) -> None:
