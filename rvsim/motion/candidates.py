@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rvsim.kinematics.forward import forward_kinematics
 from rvsim.kinematics.inverse import free_pitch_batch, inverse_kinematics_batch, inverse_tasks
+from rvsim.kinematics.inverse.batch import inverse_kinematics_rows
 from rvsim.kinematics.inverse.families import closed_form
 from rvsim.kinematics.inverse.task import candidates
 from rvsim.kinematics.jacobian import jacobian
@@ -35,7 +36,7 @@ def branches_on(robot: Robot, path: Path, near: FloatArray) -> FloatArray:
         NoClosedFormError: the arm has no closed form.
     """
     if path.rotations is not None or robot.dof < 4:
-        q = inverse_kinematics_batch(robot, path.poses())
+        q = inverse_kinematics_rows(robot, path.poses()).transpose(2, 0, 1)
         return q if closed_form(robot).task == "pose" else _on_the_points(robot, q, path.points)
     q = _free(robot, path.points, near)
     if _last_joint_only_turns(robot):

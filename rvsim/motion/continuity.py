@@ -23,6 +23,8 @@ _TILT, _FAR_TILT = 0.1, 1.5
 _HARDLY = 1.0 + 2.0 * np.cos(0.5 * _TILT)
 # What nobody would call a deviation, and what is a rounding, in sizes of the arm.
 _NEGLIGIBLE, _SAME_PLACE = 1e-4, 1e-7
+# The joints of a revolute arm that turn by so much in all bow its tool from the straight way by less than that.
+_SMALL_STEP = 0.99 * np.sqrt(8.0 * _NEGLIGIBLE)
 _HALVINGS = 8
 # Newton's method: its steps, the longest of them [rad, sizes], how near is near enough, in lengths of the way.
 _STEPS, _LONGEST_STEP, _NEAR_ENOUGH = 20, 0.5, 1e-3
@@ -34,12 +36,23 @@ Mask = NDArray[np.bool_]
 
 def continuous_run(robot: Robot, q: FloatArray, with_rotation: bool) -> Mask:
     """(k − 1,) the same for each step of poses q (k, n), which are without whole turns between them."""
+    if _in_small_steps(robot, q):
+        return np.ones(len(q) - 1, dtype=bool)
     T = forward_kinematics(robot, np.concatenate([q, 0.5 * (q[:-1] + q[1:])]))
     result, far = beside(robot, T[: len(q) - 1], T[len(q) :], T[1 : len(q)], with_rotation)
     doubtful = np.flatnonzero(~(result | far))
     if len(doubtful):
         result[doubtful] = continuous(robot, q[doubtful], q[doubtful + 1], with_rotation)
     return result
+
+
+def _in_small_steps(robot: Robot, q: FloatArray) -> bool:
+    """Whether each step of poses (k, n) is so small that its midpoint cannot be anything but near the straight way.
+
+    The tool of a revolute arm, no farther than its size r from any axis, feels at most r s² of the second derivative
+    along a step that turns its joints by s in all, and so leaves its chord by at most r s²/8; it tilts by s at most.
+    """
+    return bool(robot.is_revolute.all() and np.abs(q[1:] - q[:-1]).sum(axis=1).max(initial=0.0) <= _SMALL_STEP)
 
 
 def continuous(robot: Robot, q0: FloatArray, q1: FloatArray, with_rotation: bool) -> Mask:

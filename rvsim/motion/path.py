@@ -14,6 +14,7 @@ from rvsim.robot.arrays import FloatArray, frozen_array
 # The tool's z axis points straight down, its x axis along the base's x axis (source 000 tracks with this rotation).
 TOOL_DOWN = frozen_array("tool down", np.diag([1.0, -1.0, -1.0]), (3, 3))
 
+_IDENTITY = frozen_array("identity", np.eye(3), (3, 3))
 _CORNER, _UNUSUAL = np.radians(25.0), 4.0  # how far a path must turn to have a corner, and how many times the usual
 
 
@@ -82,10 +83,10 @@ class Path:
 
     def poses(self) -> FloatArray:
         """(m, 4, 4) base → tool; the identity orientation where it is free."""
-        T = np.tile(np.eye(4), (self.samples, 1, 1))
+        T = np.zeros((self.samples, 4, 4))
         T[:, :3, 3] = self.points
-        if self.rotations is not None:
-            T[:, :3, :3] = self.rotations
+        T[:, :3, :3] = _IDENTITY if self.rotations is None else self.rotations
+        T[:, 3, 3] = 1.0
         return T
 
     def part(self, which: slice | NDArray[np.intp]) -> Path:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 
 from rvsim.kinematics.forward import forward_kinematics
 from rvsim.motion.continuity import beside, continuous
-from rvsim.motion.straight import straight_column
+from rvsim.motion.straight import straight_run
 from rvsim.motion.turns import JointRange, existing, nearest_turn, whole_turns
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -64,9 +65,10 @@ def best_sequence(
         joints: the limits that count.
         with_rotation: whether the orientation belongs to the path.
     """
-    stages = np.flatnonzero(~np.isnan(branches[..., 0]).all(axis=1))
-    if len(stages) == len(branches):
-        return _sequence(robot, branches, np.ones(len(stages) - 1, dtype=bool), near, joints, with_rotation)
+    missing = np.isnan(branches[..., 0])
+    if not (missing.any() and missing.all(axis=1).any()):
+        return _sequence(robot, branches, np.ones(len(branches) - 1, dtype=bool), near, joints, with_rotation)
+    stages = np.flatnonzero(~missing.all(axis=1))
     q = np.full((len(branches), robot.dof), np.nan)
     if not len(stages):
         return Sequence(q, True)
@@ -74,6 +76,7 @@ def best_sequence(
     return Sequence(q, sure)
 
 
+@lru_cache(maxsize=64)
 def motion_weights(robot: Robot) -> FloatArray:
     """(n,) what a joint's motion counts: 1 a radian; a slide across the whole arm as much as half a turn."""
     return np.where(robot.is_revolute, 1.0, np.pi / robot.size)
@@ -98,15 +101,14 @@ def _straight(
         return None
     weights = motion_weights(robot)
     front = _first(q[0], near, joints, weights)
-    column = straight_column(robot, q, front.cost, adjacent, joints, weights, with_rotation)
-    if column is None:
+    run = straight_run(robot, q, front.cost, adjacent, joints, weights, with_rotation)
+    if run is None:
         return None
     if adjacent.all():
-        run = q[:, column]
-        found = joints.nearest_run(run + whole_turns(run, joints.periodic), near)
+        found = joints.nearest_run(run, near)
     else:
-        found = _unwrapped(q[:, column], np.concatenate([[True], ~adjacent]), near, joints)
-    return found if not joints.outside(found).any() else None
+        found = _unwrapped(run, np.concatenate([[True], ~adjacent]), near, joints)
+    return found if joints.holds(found) else None
 
 
 def _chosen(
@@ -124,7 +126,8 @@ def _chosen(
 
 def _first(q: FloatArray, near: FloatArray, joints: JointRange, weights: FloatArray) -> _Front:
     way = joints.nearest_copy(q, near) - near
-    cost = np.linalg.norm(weights * way, axis=-1)
+    way *= weights
+    cost = np.sqrt((way * way).sum(axis=-1))
     return _Front(np.where(np.isnan(cost), np.inf, cost), q, q, q)
 
 

@@ -12,15 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rvsim.motion.continuity import continuous_run
-from rvsim.motion.turns import JointRange, nearest_turn, whole_turns
+from rvsim.motion.turns import TURN, JointRange, nearest_turn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_BLOCK = 20  # points whose ways are bounded together
+_BLOCK = 20  # points whose ways are bounded together where it does not do to take all at once
 _ROUNDING = 1e-9
 
 
-def straight_column(
+def straight_run(
     robot: Robot,
     q: FloatArray,
     first: FloatArray,
@@ -28,54 +28,83 @@ def straight_column(
     joints: JointRange,
     weights: FloatArray,
     with_rotation: bool,
-) -> int | None:
-    """The column of branches q (m, s, n) that is the best sequence alone and without jumps; None if that is not sure.
+) -> FloatArray | None:
+    """The branch of q (m, s, n) that is the best sequence alone and without jumps, (m, n); None if none surely is.
+
+    It is without whole turns from one point to the next.
 
     Args:
         first: (s,) the way from the present pose to each branch of the first point, inf where there is none.
         adjacent: (m − 1,) which points follow each other on the path.
         weights: (n,) what a joint's motion counts.
     """
-    steps = _lengths(q[1:] - q[:-1], joints, weights)
-    totals = first + steps.sum(axis=0)
+    rows = q.transpose(2, 1, 0)
+    ways = _ways(rows[..., 1:] - rows[..., :-1], joints)
+    steps = _lengths(ways, joints, weights)
+    totals = first + steps.sum(axis=1)
     totals[np.isnan(totals)] = np.inf
     best = int(np.argmin(totals))
-    if not totals[best] <= _least(q, first, steps, joints, weights) + _ROUNDING * max(len(q), 1):
+    enough = totals[best] - _ROUNDING * max(len(q), 1)
+    if not any(_least(rows, first, steps, block, joints, weights) >= enough for block in (len(q), _BLOCK)):
         return None
-    way = q[:, best] + whole_turns(q[:, best], joints.periodic)
-    return best if (continuous_run(robot, way, with_rotation) | ~adjacent).all() else None
+    run = _run(rows[:, best], ways[:, best])
+    return run if (continuous_run(robot, run, with_rotation) | ~adjacent).all() else None
 
 
-def _least(q: FloatArray, first: FloatArray, steps: FloatArray, joints: JointRange, weights: FloatArray) -> float:
-    """What no way through the branches q (m, s, n) can undercut."""
-    ends = np.append(np.arange(0, len(q) - 1, _BLOCK), len(q) - 1)
-    if len(ends) == 1:
+def _run(q: FloatArray, ways: FloatArray) -> FloatArray:
+    """(m, n) the poses (n, m) of one branch, without the whole turns that their ways (n, m − 1) do not make."""
+    turns = np.rint((ways - (q[:, 1:] - q[:, :-1])) * (1.0 / TURN))
+    run = np.array(q.T, order="C")
+    if turns.any():
+        run[1:] += TURN * np.cumsum(turns, axis=1).T
+    return run
+
+
+def _least(
+    q: FloatArray, first: FloatArray, steps: FloatArray, block: int, joints: JointRange, weights: FloatArray
+) -> float:
+    """What no way through the branches q (n, s, m) can undercut, bounded by blocks of so many points.
+
+    Args:
+        steps: (s, m − 1) the way of each branch from point to point, NaN where it breaks off.
+    """
+    last = q.shape[2] - 1
+    if not last:
         return float(first.min())
-    exists = ~np.isnan(q[..., 0])
-    somewhere = np.logical_or.reduceat(exists[:-1], ends[:-1], axis=0) | exists[ends[1:]]
-    bounds = _bounds(q[ends], np.add.reduceat(steps, ends[:-1], axis=0), somewhere, joints, weights)
+    begins = np.arange(0, last, block)
+    ends = np.append(begins[1:], last)
+    exists = ~np.isnan(q[0])
+    somewhere = np.logical_or.reduceat(exists[:, :-1], begins, axis=1) | exists[:, ends]
+    own = np.add.reduceat(steps, begins, axis=1)
     cost = first
-    for bound in bounds:
+    for bound in _bounds(q[..., begins].T, q[..., ends].T, own.T, somewhere.T, joints, weights):
         cost = (cost[:, None] + bound).min(axis=0)
     return float(cost.min())
 
 
 def _bounds(
-    q: FloatArray, own: FloatArray, somewhere: NDArray[np.bool_], joints: JointRange, weights: FloatArray
+    here: FloatArray,
+    there: FloatArray,
+    own: FloatArray,
+    somewhere: NDArray[np.bool_],
+    joints: JointRange,
+    weights: FloatArray,
 ) -> FloatArray:
     """(k, s, s) the least way from each branch of a block's first point to each of its last, inf where one is missing.
 
     Args:
-        q: (k + 1, s, n) the branches at the ends of the blocks.
+        here, there: (k, s, n) the branches at the first and at the last point of each block.
         own: (k, s) the way of each branch through the block, NaN where it breaks off.
         somewhere: (k, s) whether the branch exists at any point of the block.
     """
-    here = q[:-1, :, None]
-    others = np.stack([q[1:, None], q[:-1, None]])
-    direct, apart = _lengths(others - here, joints, weights)
-    column = np.arange(q.shape[1])
+    others = np.array((there, here)).transpose(3, 0, 1, 2)
+    from_here = here.transpose(2, 0, 1)
+    direct, apart = _lengths(_ways(others[..., None, :] - from_here[:, None, :, :, None], joints), joints, weights)
+    column = np.arange(own.shape[1])
     # To another branch and back, wherever in the block: that branch is at most `own` nearer than at the beginning.
-    away = np.where(somewhere[:, None, :], np.nan_to_num(apart - own[:, None, :]), np.inf)
+    away = apart - own[:, None, :]
+    away[np.isnan(away)] = 0.0
+    away[np.broadcast_to(~somewhere[:, None, :], away.shape)] = np.inf
     away[:, column, column] = np.inf
     straight = direct[:, column, column]
     there_and_back = 2.0 * away.min(axis=2) - straight
@@ -84,9 +113,12 @@ def _bounds(
     return np.asarray(direct)
 
 
-def _lengths(steps: FloatArray, joints: JointRange, weights: FloatArray) -> FloatArray:
-    """(...) the lengths of joint steps (..., n), each the short way round; NaN where there is none."""
-    way = nearest_turn(steps, joints.periodic)
-    if not joints.revolute.all():
-        way *= weights
-    return np.asarray(np.sqrt(np.einsum("...n,...n->...", way, way)))
+def _ways(steps: FloatArray, joints: JointRange) -> FloatArray:
+    """Joint steps (n, ...), each the short way round."""
+    return nearest_turn(steps.T, joints.periodic).T
+
+
+def _lengths(ways: FloatArray, joints: JointRange, weights: FloatArray) -> FloatArray:
+    """(...) the lengths of joint steps (n, ...); NaN where there is none."""
+    weighted = ways if joints.revolute.all() else (ways.T * weights).T
+    return np.asarray(np.sqrt((weighted * weighted).sum(axis=0)))

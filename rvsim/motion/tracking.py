@@ -7,7 +7,6 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rvsim.kinematics.forward import forward_kinematics
 from rvsim.motion.candidates import branches_on, useful_columns
 from rvsim.motion.continuity import continuous
 from rvsim.motion.path import Path
@@ -50,7 +49,6 @@ def track(robot: Robot, path: Path, *, near: ArrayLike | None = None, ignore_lim
         path,
         q,
         unreached=_reasons(robot, path, np.flatnonzero(~existing(q)), present),
-        actual=_tool_points(robot, q),
         jumps=() if sure else find_jumps(robot, q, with_rotation),
         solve_seconds=elapsed,
         ignore_limits=ignore_limits,
@@ -88,16 +86,6 @@ def _within(branches: FloatArray, near: FloatArray, joints: JointRange) -> Float
     copies = joints.nearest_copy(branches, near)
     outside = np.any(joints.outside(copies) > 0.0, axis=-1, keepdims=True)
     return np.where(outside, np.nan, copies)
-
-
-def _tool_points(robot: Robot, q: FloatArray) -> FloatArray:
-    """(m, 3) where the tool is, NaN where q is."""
-    known = existing(q)
-    if known.all():
-        return np.asarray(forward_kinematics(robot, q)[:, :3, 3])
-    points = np.full((len(q), 3), np.nan)
-    points[known] = forward_kinematics(robot, q[known])[:, :3, 3]
-    return points
 
 
 def _reasons(robot: Robot, path: Path, missed: NDArray[np.intp], near: FloatArray) -> tuple[Unreached, ...]:

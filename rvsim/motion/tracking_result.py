@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rvsim.errors import ShapeError
+from rvsim.kinematics.forward import forward_kinematics
 from rvsim.motion.path import Path
 from rvsim.motion.turns import existing
 from rvsim.robot import Robot
@@ -41,7 +42,6 @@ class Tracking:
     Args:
         q: (m, n) joints [rad, m], unwrapped (no jumps by whole turns); NaN rows where a point was not reached.
         unreached: the points that were not reached, with the reasons.
-        actual: (m, 3) where the tool is [m], NaN rows where a point was not reached.
         jumps: indices of points that follow the point before only by leaving the path (a change of branch).
         solve_seconds: the time it took to find q.
         ignore_limits: whether the joint limits were left out of account.
@@ -51,7 +51,6 @@ class Tracking:
     path: Path
     q: FloatArray
     unreached: tuple[Unreached, ...]
-    actual: FloatArray
     jumps: tuple[int, ...] = ()
     solve_seconds: float = 0.0
     ignore_limits: bool = False
@@ -59,7 +58,6 @@ class Tracking:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "q", frozen_array("q", self.q, (self.path.samples, self.robot.dof)))
-        object.__setattr__(self, "actual", frozen_array("actual", self.actual, (self.path.samples, 3)))
         reached = existing(self.q)
         reached.setflags(write=False)
         object.__setattr__(self, "reached", reached)
@@ -80,6 +78,13 @@ class Tracking:
     def complete(self) -> bool:
         """Whether every point was reached."""
         return bool(self.reached.all())
+
+    @cached_property
+    def actual(self) -> FloatArray:
+        """(m, 3) where the tool is [m], by forward kinematics; NaN rows where a point was not reached."""
+        points = np.full((self.samples, 3), np.nan)
+        points[self.reached] = forward_kinematics(self.robot, self.q[self.reached])[:, :3, 3]
+        return frozen_array("actual", points, (self.samples, 3))
 
     @cached_property
     def deviation(self) -> FloatArray:

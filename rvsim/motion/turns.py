@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from rvsim.kinematics.inverse.copies import LIMIT_TOLERANCE
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_TURN = 2.0 * np.pi
+TURN = 2.0 * np.pi
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,31 +23,36 @@ class JointRange:
     upper: FloatArray
     revolute: NDArray[np.bool_]
 
-    @classmethod
-    def of(cls, robot: Robot, ignore_limits: bool) -> JointRange:
+    @staticmethod
+    @lru_cache(maxsize=64)
+    def of(robot: Robot, ignore_limits: bool) -> JointRange:
         """Of an arm; without limits if they are to be ignored."""
         limits = np.array(robot.limits)
         if ignore_limits:
             limits[:, 0], limits[:, 1] = -np.inf, np.inf
-        return cls(limits[:, 0] - LIMIT_TOLERANCE, limits[:, 1] + LIMIT_TOLERANCE, robot.is_revolute)
+        return JointRange(limits[:, 0] - LIMIT_TOLERANCE, limits[:, 1] + LIMIT_TOLERANCE, robot.is_revolute)
 
-    @property
+    @cached_property
     def periodic(self) -> NDArray[np.bool_]:
         """(n,) whether a joint can reach the same angle again by going on turning."""
-        return np.asarray(self.revolute & (self.upper - self.lower >= _TURN))
+        return np.asarray(self.revolute & (self.upper - self.lower >= TURN))
 
     def nearest_copy(self, q: FloatArray, near: FloatArray) -> FloatArray:
         """q (..., n) turned to the copies nearest to `near` within the limits; nearest to the limits if none is."""
-        return q + _TURN * np.where(self.revolute, self._turns(q, q, near - q), 0.0)
+        return q + TURN * np.where(self.revolute, self._turns(q, q, near - q), 0.0)
 
     def nearest_run(self, q: FloatArray, near: FloatArray) -> FloatArray:
         """A run of poses (k, n) turned as a whole so that it fits and begins as near to `near` (n,) as possible."""
         turns = self._turns(q.min(axis=0), q.max(axis=0), near - q[0])
-        return np.asarray(q + _TURN * np.where(self.revolute, turns, 0.0))
+        return np.asarray(q + TURN * np.where(self.revolute, turns, 0.0))
 
     def outside(self, q: FloatArray) -> FloatArray:
         """(..., n) how far each joint lies outside its limits, 0 within."""
         return np.asarray(np.maximum(np.maximum(self.lower - q, q - self.upper), 0.0))
+
+    def holds(self, q: FloatArray) -> bool:
+        """Whether all of q (..., n) lies within the limits."""
+        return not ((q < self.lower).any() or (q > self.upper).any())
 
     def fits(self, low: FloatArray, high: FloatArray) -> NDArray[np.bool_]:
         """(...) whether runs that span low … high (..., n) fit into the limits after some whole turns."""
@@ -57,19 +63,22 @@ class JointRange:
     def _turns(self, low: FloatArray, high: FloatArray, wanted: FloatArray) -> FloatArray:
         """Whole turns nearest to `wanted` that bring low … high inside; where none does, those of the least excess."""
         least, most = self._fewest(low), self._most(high)
-        turns = np.clip(np.round(wanted / _TURN), least, np.maximum(least, most))
+        fits = least <= most
+        turns = np.minimum(np.maximum(np.rint(wanted / TURN), least), np.maximum(least, most))
+        if fits.all():
+            return np.asarray(turns)
         with np.errstate(invalid="ignore"):  # without a limit: inf − inf, not used
             # No copy fits: `least` clears the lower stop, a turn less clears the upper one; take what exceeds less.
-            excess_above = high + _TURN * least - self.upper
-            excess_below = self.lower - (low + _TURN * (least - 1.0))
+            excess_above = high + TURN * least - self.upper
+            excess_below = self.lower - (low + TURN * (least - 1.0))
         lesser = least - np.where(excess_below < excess_above, 1.0, 0.0)
-        return np.asarray(np.where(least <= most, turns, lesser))
+        return np.asarray(np.where(fits, turns, lesser))
 
     def _fewest(self, low: FloatArray) -> FloatArray:
-        return np.asarray(np.ceil((self.lower - low) / _TURN))
+        return np.asarray(np.ceil((self.lower - low) / TURN))
 
     def _most(self, high: FloatArray) -> FloatArray:
-        return np.asarray(np.floor((self.upper - high) / _TURN))
+        return np.asarray(np.floor((self.upper - high) / TURN))
 
 
 def existing(q: FloatArray) -> NDArray[np.bool_]:
@@ -79,13 +88,13 @@ def existing(q: FloatArray) -> NDArray[np.bool_]:
 
 def nearest_turn(difference: FloatArray, periodic: NDArray[np.bool_]) -> FloatArray:
     """Differences (..., n) of joints; a periodic one goes the short way round."""
-    turned = np.rint(difference * (1.0 / _TURN))
-    turned *= -_TURN if periodic.all() else np.where(periodic, -_TURN, 0.0)
+    turned = np.rint(difference * (1.0 / TURN))
+    turned *= -TURN if periodic.all() else np.where(periodic, -TURN, 0.0)
     turned += difference
     return np.asarray(turned)
 
 
 def whole_turns(q: FloatArray, periodic: NDArray[np.bool_]) -> FloatArray:
     """(k, n) what to add to poses (k, n) so that no periodic joint leaps by a whole turn from one to the next."""
-    leaps = np.where(periodic, np.round(np.diff(q, axis=0) / _TURN), 0.0)
-    return np.concatenate([np.zeros((1, q.shape[1])), -_TURN * np.cumsum(leaps, axis=0)])
+    leaps = np.where(periodic, np.round(np.diff(q, axis=0) / TURN), 0.0)
+    return np.concatenate([np.zeros((1, q.shape[1])), -TURN * np.cumsum(leaps, axis=0)])

@@ -25,7 +25,7 @@ def joint_wave(robot: Robot, seed: int, samples: int = 60) -> Path:
 
 def by_the_long_way(robot: Robot, path: Path, near: np.ndarray, monkeypatch: pytest.MonkeyPatch) -> Tracking:
     with monkeypatch.context() as patch:
-        patch.setattr(sequence, "straight_column", lambda *_: None)
+        patch.setattr(sequence, "straight_run", lambda *_: None)
         return track(robot, path, near=near)
 
 
