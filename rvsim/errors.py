@@ -7,6 +7,7 @@
     ├── RobotFileError         a robot file that cannot be read, with its path, table and key
     ├── UnknownNameError       a name outside a closed list (a path, a tool, an orientation)
     ├── LetterError            a text that the pen cannot write
+    ├── TooManyPointsError     a path of so many points that nobody would wait for it
     ├── PathFileError          a file of points that cannot be read, with its row and column
     ├── ProgramFileError       a program that cannot be read, with its line and key
     ├── FileWriteError         a file that cannot be written, with its path and the reason
@@ -97,6 +98,14 @@ class LetterError(RvsimError, LookupError):
         super().__init__(
             f"The pen cannot write “{letter}”. {known}" if letter else "Type a letter or more to be written."
         )
+
+
+class TooManyPointsError(RvsimError, ValueError):
+    """A path of so many points that nobody would wait for it."""
+
+    def __init__(self, what: str, points: float, most: int, advice: str) -> None:
+        self.what, self.points, self.most = what, points, most
+        super().__init__(f"{what} would have about {points:.3g} points, and a path has at most {most}: {advice}.")
 
 
 class PathFileError(RvsimError, ValueError):

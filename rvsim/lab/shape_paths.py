@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rvsim.errors import ExpressionError, FormulaError, LetterError
+from rvsim.errors import ExpressionError, FormulaError, LetterError, TooManyPointsError
 from rvsim.experiment import SHAPE_KINDS, Placement, Shape, TrajectoryTask
 from rvsim.experiment.shapes import (
     ArcShape,
@@ -58,7 +59,17 @@ def _text(shape: TextShape) -> Drawing:
     lines = text_strokes(shape.text, shape.height)
     if not lines:
         raise LetterError("")
+    points = _count(lines, shape)
+    if points > MOST_SAMPLES:
+        raise TooManyPointsError("The text", points, MOST_SAMPLES, "space them wider, or write smaller letters")
     return shapes.strokes(lines, shape.spacing, shape.lift)
+
+
+def _count(lines: list[FloatArray], shape: TextShape) -> float:
+    """How many points the strokes and the ways between them would have, about: known before any is made."""
+    drawn = sum(float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line in lines)
+    hops = sum(float(np.linalg.norm(after[0] - line[-1])) + 2.0 * shape.lift for line, after in pairwise(lines))
+    return (drawn + hops / shapes.HOP_STEP) / shape.spacing
 
 
 def _through(shape: ArcThroughShape) -> Drawing:
@@ -68,7 +79,7 @@ def _through(shape: ArcThroughShape) -> Drawing:
 
 def _points(shape: PointsShape) -> Drawing:
     known = shape.points
-    if shape.join == "none" or len(known) < 2:
+    if shape.join == "none" or not np.any(known != known[:1]):  # nothing joins a point to itself
         return Drawing(known, np.arange(1, len(known) - 1))
     if shape.join == "lines":
         return shapes.polyline(known, shape.samples)
@@ -232,7 +243,7 @@ def task_path(robot: Robot, task: TrajectoryTask, q: ArrayLike | None = None) ->
 
     Raises:
         UnknownNameError: no such path.
-        LetterError: a text that cannot be written.
+        LetterError, TooManyPointsError: a text that cannot be written, or that is too finely drawn.
         FormulaError: a formula that cannot be worked out.
         ShapeError: a shape without points.
         PathFileError, OSError: a file that cannot be read.

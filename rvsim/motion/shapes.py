@@ -15,6 +15,7 @@ from rvsim.motion.spline import knot_slopes
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 _COLLINEAR = 1e-9  # of the size: three points on a line have no circle
+HOP_STEP = 3.0  # of the spacing: how far apart points are where the pen is up
 _TIP_UP = 0.5 * math.pi  # the first corner of a polygon or star points along y
 
 
@@ -211,7 +212,7 @@ def _hop(start: FloatArray, end: FloatArray, spacing: float, lift: float) -> tup
     up = np.array([0.0, 0.0, lift])
     knots = np.array([start, start + up, end + up, end])
     edges = np.linalg.norm(np.diff(knots, axis=0), axis=1)
-    points, turns = _in_pieces(knots, [max(math.ceil(edge / (3.0 * spacing)), 1) for edge in edges])
+    points, turns = _in_pieces(knots, [max(math.ceil(edge / (HOP_STEP * spacing)), 1) for edge in edges])
     return points[1:-1], turns - 1
 
 

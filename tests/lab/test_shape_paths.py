@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from rvsim import load_robot, robot_names
-from rvsim.errors import FormulaError
+from rvsim.errors import FormulaError, LetterError, TooManyPointsError
 from rvsim.experiment import Placement, TrajectoryTask
-from rvsim.experiment.shapes import SHAPE_KINDS, FormulaShape, FormulaStage, PointsShape, TextShape
+from rvsim.experiment.shapes import SHAPE_KINDS, FormulaShape, FormulaStage, Join, PointsShape, TextShape
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab import named_path
 from rvsim.lab.orientations import normal_gap
@@ -59,6 +59,27 @@ def test_too_many_points_are_refused_and_constants_will_do() -> None:
         formula_points(FormulaShape((FormulaStage(1.0, 20_002, "t", "t", "t"),)))
     points = formula_points(FormulaShape((FormulaStage(1.0, 3, "0,5", "max(t, 0.4)", "2^-1"),), unit=1.0))
     assert points.tolist() == [[0.5, 0.4, 0.5], [0.5, 0.5, 0.5], [0.5, 1.0, 0.5]]
+
+
+@pytest.mark.parametrize(
+    ("shape", "problem"),
+    [
+        (TextShape(0.1, "  "), "Type a letter"),
+        (TextShape(0.1, "Жук"), "cannot write “Ж”"),
+        (TextShape(1e3, "W" * 60, spacing=1e-4), "The text would have about"),
+        (TextShape(0.1, "RV", lift=1e3, spacing=1e-4), "The text would have about"),
+    ],
+)
+def test_a_text_that_cannot_be_written_says_why_in_a_sentence(shape: TextShape, problem: str) -> None:
+    with pytest.raises((LetterError, TooManyPointsError), match=problem):
+        task_path(load_robot("rv-m1"), TrajectoryTask("text", shape=shape))
+
+
+@pytest.mark.parametrize("join", ["lines", "natural", "not-a-knot", "closed", "none"])
+def test_points_that_are_all_the_same_are_just_these_points(join: Join) -> None:
+    shape = PointsShape(np.tile([0.3, 0.0, 0.16], (3, 1)), join)
+    path = task_path(load_robot("rv-m1"), TrajectoryTask("points", shape=shape))
+    np.testing.assert_array_equal(path.points, shape.points)
 
 
 @pytest.mark.parametrize("name", ["star", "ellipse-moved", "points", "text", "formulas"])
