@@ -108,7 +108,7 @@ def _straight(
         found = joints.nearest_run(run, near)
     else:
         found = _unwrapped(run, np.concatenate([[True], ~adjacent]), near, joints)
-    return found if joints.holds(found) else None
+    return np.ascontiguousarray(found) if joints.holds(found) else None
 
 
 def _chosen(

@@ -54,10 +54,9 @@ def straight_run(
 def _run(q: FloatArray, ways: FloatArray) -> FloatArray:
     """(m, n) the poses (n, m) of one branch, without the whole turns that their ways (n, m − 1) do not make."""
     turns = np.rint((ways - (q[:, 1:] - q[:, :-1])) * (1.0 / TURN))
-    run = np.array(q.T, order="C")
-    if turns.any():
-        run[1:] += TURN * np.cumsum(turns, axis=1).T
-    return run
+    if not turns.any():
+        return q.T
+    return np.concatenate((q[:, :1], q[:, 1:] + TURN * np.cumsum(turns, axis=1)), axis=1).T
 
 
 def _least(
@@ -72,12 +71,13 @@ def _least(
     if not last:
         return float(first.min())
     begins = np.arange(0, last, block)
-    ends = np.append(begins[1:], last)
+    ends = np.minimum(begins + block, last)
     exists = ~np.isnan(q[0])
     somewhere = np.logical_or.reduceat(exists[:, :-1], begins, axis=1) | exists[:, ends]
     own = np.add.reduceat(steps, begins, axis=1)
     cost = first
-    for bound in _bounds(q[..., begins].T, q[..., ends].T, own.T, somewhere.T, joints, weights):
+    here, there = (q[..., points].swapaxes(1, 2) for points in (begins, ends))
+    for bound in _bounds(here, there, own.T, somewhere.T, joints, weights):
         cost = (cost[:, None] + bound).min(axis=0)
     return float(cost.min())
 
@@ -93,24 +93,27 @@ def _bounds(
     """(k, s, s) the least way from each branch of a block's first point to each of its last, inf where one is missing.
 
     Args:
-        here, there: (k, s, n) the branches at the first and at the last point of each block.
+        here, there: (n, k, s) the branches at the first and at the last point of each block.
         own: (k, s) the way of each branch through the block, NaN where it breaks off.
         somewhere: (k, s) whether the branch exists at any point of the block.
     """
-    others = np.array((there, here)).transpose(3, 0, 1, 2)
-    from_here = here.transpose(2, 0, 1)
-    direct, apart = _lengths(_ways(others[..., None, :] - from_here[:, None, :, :, None], joints), joints, weights)
-    column = np.arange(own.shape[1])
+    others = np.array((there, here)).transpose(1, 0, 2, 3)
+    direct, apart = _lengths(_ways(others[..., None, :] - here[:, None, ..., None], joints), joints, weights)
     # To another branch and back, wherever in the block: that branch is at most `own` nearer than at the beginning.
     away = apart - own[:, None, :]
     away[np.isnan(away)] = 0.0
-    away[np.broadcast_to(~somewhere[:, None, :], away.shape)] = np.inf
-    away[:, column, column] = np.inf
-    straight = direct[:, column, column]
+    away = np.where(somewhere[:, None, :], away, np.inf)
+    _diagonal(away)[:] = np.inf
+    straight = _diagonal(direct)
     there_and_back = 2.0 * away.min(axis=2) - straight
-    direct[:, column, column] = np.fmin(own, np.maximum(straight, there_and_back))
+    straight[:] = np.fmin(own, np.maximum(straight, there_and_back))
     direct[np.isnan(direct)] = np.inf
     return np.asarray(direct)
+
+
+def _diagonal(matrices: FloatArray) -> FloatArray:
+    """(k, s) the diagonals of matrices (k, s, s), to be written to."""
+    return np.asarray(np.einsum("kss->ks", matrices))
 
 
 def _ways(steps: FloatArray, joints: JointRange) -> FloatArray:
@@ -120,5 +123,5 @@ def _ways(steps: FloatArray, joints: JointRange) -> FloatArray:
 
 def _lengths(ways: FloatArray, joints: JointRange, weights: FloatArray) -> FloatArray:
     """(...) the lengths of joint steps (n, ...); NaN where there is none."""
-    weighted = ways if joints.revolute.all() else (ways.T * weights).T
+    weighted = ways if joints.all_revolute else (ways.T * weights).T
     return np.asarray(np.sqrt((weighted * weighted).sum(axis=0)))

@@ -33,6 +33,11 @@ class JointRange:
         return JointRange(limits[:, 0] - LIMIT_TOLERANCE, limits[:, 1] + LIMIT_TOLERANCE, robot.is_revolute)
 
     @cached_property
+    def all_revolute(self) -> bool:
+        """Whether there are only angles."""
+        return bool(self.revolute.all())
+
+    @cached_property
     def periodic(self) -> NDArray[np.bool_]:
         """(n,) whether a joint can reach the same angle again by going on turning."""
         return np.asarray(self.revolute & (self.upper - self.lower >= TURN))
@@ -83,13 +88,16 @@ class JointRange:
 
 def existing(q: FloatArray) -> NDArray[np.bool_]:
     """(...) whether poses (..., n) exist: a branch that does not is NaN."""
-    return np.asarray(np.isfinite(q).all(axis=-1))
+    finite = np.isfinite(q)
+    if finite.all():  # as a rule, and quicker to ask than each pose
+        return np.ones(q.shape[:-1], dtype=bool)
+    return np.asarray(finite.all(axis=-1))
 
 
 def nearest_turn(difference: FloatArray, periodic: NDArray[np.bool_]) -> FloatArray:
     """Differences (..., n) of joints; a periodic one goes the short way round."""
     turned = np.rint(difference * (1.0 / TURN))
-    turned *= -TURN if periodic.all() else np.where(periodic, -TURN, 0.0)
+    turned *= -TURN * periodic
     turned += difference
     return np.asarray(turned)
 

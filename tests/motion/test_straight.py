@@ -7,7 +7,7 @@ import pytest
 
 from rvsim import forward_kinematics, load_robot
 from rvsim.lab import named_path
-from rvsim.motion import Path, Tracking, sequence, track
+from rvsim.motion import Path, Tracking, continuity, sequence, track
 from rvsim.robot import Robot
 
 SEED = 5
@@ -47,3 +47,16 @@ def test_the_sources_ellipse_is_such_a_path(monkeypatch: pytest.MonkeyPatch) -> 
     tracking = track(robot, named_path("ellipse-moved", robot))
     assert tracking.complete
     assert not tracking.jumps
+
+
+@pytest.mark.parametrize("name", ["rv-m1", "rv-1a", "ur5e", "al5b"])
+def test_steps_that_are_small_enough_to_need_no_midpoint_pass_the_midpoint_test(name: str) -> None:
+    robot = load_robot(name)
+    random = np.random.default_rng(SEED)
+    start = random.uniform(-3.0, 3.0, (2000, robot.dof))
+    way = random.normal(size=start.shape)
+    end = start + way * (0.999 * continuity._SMALL_STEP / np.abs(way).sum(axis=1, keepdims=True))
+    assert all(continuity._in_small_steps(robot, np.array(pair)) for pair in zip(start[:50], end[:50], strict=True))
+    first, middle, last = forward_kinematics(robot, np.stack([start, 0.5 * (start + end), end]))
+    near, _ = continuity.beside(robot, first, middle, last, True)
+    assert near.all()

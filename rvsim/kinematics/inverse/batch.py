@@ -14,7 +14,6 @@ from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray, floats
 
 BLOCK = 8192  # poses; measured: smaller pays for calls, larger falls out of the cache
-_IDENTITY = np.eye(4)
 
 
 def inverse_kinematics_batch(robot: Robot, T: ArrayLike, *, project: bool = False) -> FloatArray:
@@ -78,10 +77,10 @@ def solve_block(form: ClosedForm, poses: FloatArray, free: FloatArray) -> FloatA
 
 def frame_entries(chain: Chain, poses: FloatArray, *, flange: bool) -> FloatArray:
     """T_0_n, or T_0_tool, entry by entry (3, 4, m) of T_base_tool (m, 4, 4)."""
-    if flange and not np.array_equal(chain.T_tool_n, _IDENTITY):
+    if flange and not chain.tool_is_last:
         poses = (poses.reshape(-1, 4) @ chain.T_tool_n).reshape(-1, 4, 4)
     S = np.ascontiguousarray(poses[:, :3].transpose(1, 2, 0))
-    if not np.array_equal(chain.T_0_base, _IDENTITY):
+    if not chain.base_is_first:
         S = (chain.T_0_base[:3, :3] @ S.reshape(3, -1)).reshape(S.shape)
         S[:, 3] += chain.T_0_base[:3, 3:]
     return S

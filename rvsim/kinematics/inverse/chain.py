@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -55,6 +56,24 @@ class Chain:
         object.__setattr__(self, "T_0_base", inverse_transform(self.T_base_0))
         object.__setattr__(self, "T_tool_n", inverse_transform(self.T_n_tool))
 
+    @cached_property
+    def tool_is_last(self) -> bool:
+        """Whether frame n is that of the tool."""
+        return np.array_equal(self.T_n_tool, np.eye(4))
+
+    @cached_property
+    def base_is_first(self) -> bool:
+        """Whether frame 0 is that of the base."""
+        return np.array_equal(self.T_base_0, np.eye(4))
+
+    @cached_property
+    def _shifts(self) -> bool:
+        return bool(self.offset.any())
+
+    @cached_property
+    def _reverses(self) -> bool:
+        return bool((self.sign < 0.0).any())
+
     @property
     def joints(self) -> str:
         """The joint types as a word, for instance "RRP"."""
@@ -83,9 +102,9 @@ class Chain:
 
     def to_joints(self, values: FloatArray) -> FloatArray:
         """Joint variables of the normal form's variables (branches, n, m), in place; angles within [−π, π]."""
-        if self.offset.any():
+        if self._shifts:
             values -= self.offset[:, None]
-        if (self.sign < 0.0).any():
+        if self._reverses:
             values *= self.sign[:, None]
         turning = self.robot.is_revolute
         if values.size <= _AT_ONCE:  # few calls for few poses; for many, parts that stay in the cache

@@ -25,6 +25,8 @@ SINGULAR = 5e-10  # sin θ5: below it axis 6 is parallel to axes 2, 3, 4, and θ
 UNCERTAIN = 1e-4  # sin θ5: below it rounding moves θ6 so far that a stretched elbow may seem out of reach
 HARMLESS = 1e-10  # sin θ5 times a turn of θ6: what such a turn changes of the pose
 
+_FLIP, _HALF_TURN = np.array([[1.0], [-1.0]]), np.array([[0.0], [math.pi]])  # of one wrist and of the other
+
 
 class _Wrist(NamedTuple):
     """Two wrists of each side: the elbow's end (u, w) in the plane, bend = θ2 + θ3 + θ4, and θ6; (..., m)."""
@@ -95,8 +97,8 @@ class ParallelAxes(ClosedForm):
         along, across = self.d5 * r4 - self.a4 * z4, self.d5 * z4 + self.a4 * r4
         theta5 = np.arctan2(sine, -an)[:, None]
         q[:, 0, :, 4], q[:, 1, :, 4] = theta5, -theta5
-        half = (np.arctan2(r4, -z4), np.arctan2(s6, c6))
-        wrist = _Wrist(_both(u, -along), _both(w, -across), *(_turned(angle) for angle in half))
+        bend, theta6 = np.arctan2(r4, -z4)[:, None] + _HALF_TURN, np.arctan2(s6, c6)[:, None] + _HALF_TURN
+        wrist = _Wrist(u[:, None] - _FLIP * along[:, None], w - _FLIP * across[:, None], bend, theta6)
         if doubtful:
             sense = np.where(xr * yz - xz * yr > 0.0, -1.0, 1.0)
             self._turn_all_into_reach(wrist, u, np.broadcast_to(w, u.shape), np.nonzero(uncertain), sine, sense)
@@ -148,19 +150,3 @@ class ParallelAxes(ClosedForm):
         cosines = ((squares - nearest**2) * scale, (squares - farthest**2) * scale)
         least, most = (np.arccos(np.clip(cosine, -1.0, 1.0)) for cosine in cosines)
         return least, most
-
-
-def _both(place: FloatArray, step: FloatArray) -> FloatArray:
-    """(2, 2, m) place + step and place − step, of (2, m) and what broadcasts with it."""
-    both = np.empty((2, *step.shape))
-    np.add(place, step, out=both[:, 0])
-    np.subtract(place, step, out=both[:, 1])
-    return both
-
-
-def _turned(angle: FloatArray) -> FloatArray:
-    """(2, 2, m) an angle (2, m) and half a turn more."""
-    both = np.empty((2, *angle.shape))
-    both[:, 0] = angle
-    np.add(angle, math.pi, out=both[:, 1])
-    return both
