@@ -91,7 +91,7 @@ class SceneView(QWidget):
         self._scene: Scene | None = None
         self._camera = Camera(np.zeros(3), 3.0)
         self._framed_bounds: np.ndarray | None = None
-        self._outliers: np.ndarray = np.empty((0, 3))
+        self._outliers: Callable[[], np.ndarray] = lambda: np.empty((0, 3))
         self._follows_size = True  # framed as a whole, and to be kept so when the widget changes its size
         self._pressed: QPointF | None = None
         self._choosing_box = False
@@ -150,8 +150,8 @@ class SceneView(QWidget):
         if self._needs_framing(scene.bounds):
             self._frame_now()
 
-    def set_outliers(self, points: np.ndarray) -> None:
-        """Points (k, 3) to be framed as well when somebody asks for everything; the view does not move now."""
+    def set_outliers(self, points: Callable[[], np.ndarray]) -> None:
+        """Where points (k, 3) are to be had that are framed as well when somebody asks for everything."""
         self._outliers = points
 
     def image(self) -> QImage:
@@ -196,9 +196,8 @@ class SceneView(QWidget):
         if self._scene is None:
             return camera
         self._framed_bounds = self._scene.bounds
-        points = np.concatenate([self._scene.bounds, self._outliers])
-        bounds = np.array([points.min(axis=0), points.max(axis=0)])
-        return framed(camera, bounds, max(self.width(), 1), max(self.height(), 1))
+        size = max(self.width(), 1), max(self.height(), 1)
+        return framed(camera, self._scene.bounds, *size, also=self._outliers())
 
     def _frame_now(self) -> None:
         self.set_camera(self._framed(self._goal()))

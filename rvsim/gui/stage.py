@@ -20,11 +20,12 @@ from rvsim.robot.arrays import FloatArray
 from rvsim.scene.build import SceneOptions, compose
 from rvsim.scene.palette import DARK, LIGHT, ScenePalette
 from rvsim.scene.paths import path_items, trail_items
-from rvsim.scene.primitives import Item
+from rvsim.scene.primitives import Dots, Item, Polyline, Segments
 
 _TRAIL_SAMPLES = 1500
 _GLIDE_MS = 280
 _TARGET_ROOM = 0.1  # [sizes] on each side: the target's axes
+_PAGES = "inspect_"  # how the names of the inspector's layers begin
 _MARKED_POINTS = 25  # more dots than these hide the line
 _SCENE_SETTINGS = {"theme", "look", "show_frames", "show_labels", "show_floor", "show_trail", "length_unit"}
 
@@ -61,6 +62,7 @@ class Stage(QObject):
         session.settled.connect(self._on_changed)
         session.tracking_changed.connect(self._on_tracking)
         motion.loaded.connect(self._on_loaded)
+        view.set_outliers(lambda: np.concatenate([self._target_corners(), self._drawn_corners()]))
         preferences.changed.connect(self._on_preference)
         self.show()
 
@@ -103,7 +105,6 @@ class Stage(QObject):
         layers = (item for items in self._layers.values() for item in items)
         extras = (*self._path, *self._trail_now(), *layers)
         scene = compose(self._session.robot, q, self.palette, options, extras)
-        self._view.set_outliers(self._target_corners())
         self._view.set_scene(replace(scene, bounds=self._with_path(scene.bounds)))
 
     def _with_path(self, bounds: FloatArray) -> FloatArray:
@@ -120,6 +121,12 @@ class Stage(QObject):
         if target is None:
             return np.empty((0, 3))
         return np.stack([target[:3, 3] - room, target[:3, 3] + room])
+
+    def _drawn_corners(self) -> FloatArray:
+        """(k, 3) what pages of the inspector draw beside the arm: arrows and ellipsoids may go far beyond its reach."""
+        layers = (items for name, items in self._layers.items() if name.startswith(_PAGES))
+        lines = [item.points for items in layers for item in items if isinstance(item, Polyline | Segments | Dots)]
+        return np.concatenate([np.empty((0, 3)), *(points[np.isfinite(points).all(axis=1)] for points in lines)])
 
     def _trail_now(self) -> tuple[Item, ...]:
         """What the tool has drawn up to the present moment."""

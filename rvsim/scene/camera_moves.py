@@ -18,16 +18,20 @@ _OCTAGON = np.stack([np.cos(_TURN), np.sin(_TURN)], axis=1) / math.cos(math.pi /
 _RINGS = ((-1.0, 1.33), (0.2, 1.0), (1.0, 0.35))  # (height, width), each relative to half the box
 
 
-def framed(camera: Camera, bounds: ArrayLike, width: float, height: float, margin: float = 0.02) -> Camera:
+def framed(
+    camera: Camera, bounds: ArrayLike, width: float, height: float, margin: float = 0.02, also: ArrayLike = ()
+) -> Camera:
     """From the same direction, with what an arm reaches inside `bounds` (2, 3) [m] in the middle and as large as fits.
 
     Each side of the picture is a plane through the eye; the planes are moved until they touch the outermost points.
 
     Args:
         margin: the share of the picture that stays free at each side.
+        also: (k, 3) points that are to be in the picture as well.
     """
+    points = np.concatenate([dome(bounds), np.reshape(np.asarray(also, dtype=np.float64), (-1, 3))])
     centre = np.asarray(bounds, dtype=np.float64).mean(axis=0)
-    right_up, nearer = np.split((dome(bounds) - centre) @ camera.axes.T, [2], axis=1)
+    right_up, nearer = np.split((points - centre) @ camera.axes.T, [2], axis=1)
     tangent = math.tan(camera.field_of_view / 2)
     slopes = (1.0 - 2.0 * margin) * tangent * np.array([max(width, 1.0) / max(height, 1.0), 1.0])
     lean = 0.0 if camera.orthographic else slopes * nearer

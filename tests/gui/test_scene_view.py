@@ -187,3 +187,11 @@ def test_the_renderer_leaves_the_mouse_to_the_view(view: SceneView) -> None:
     assert view.renderer.widget().testAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
     assert view.childAt(320, 240) is None
     assert view.accessibleName()
+
+
+def test_fit_shows_what_is_drawn_beyond_the_reach_of_the_arm(view: SceneView) -> None:
+    far = np.array([[0.0, 0.0, 3.0], [2.0, 0.0, 0.5]])
+    view.set_outliers(lambda: far)
+    view.fit()
+    x, y, _ = view.camera.project(far, view.width(), view.height()).T
+    assert ((x >= 0.0) & (x <= view.width()) & (y >= 0.0) & (y <= view.height())).all()

@@ -12,8 +12,8 @@ from PySide6.QtOpenGL import QOpenGLPaintDevice
 
 from rvsim.gui.renderers.opengl_binding import GLGraphicsItem
 from rvsim.gui.renderers.opengl_frame import Frame
-from rvsim.gui.renderers.painter_ink import text_scale
-from rvsim.gui.renderers.painter_lines import draw_label, draw_text, label_room
+from rvsim.gui.renderers.painter_lines import draw_text
+from rvsim.gui.renderers.text_layout import Ground, Texts, arranged, floor_texts, is_floor
 from rvsim.scene import Color, Label, Labels, Triads
 from rvsim.scene.palette import axis_colors
 
@@ -64,13 +64,11 @@ class LabelLayer(GLGraphicsItem):  # type: ignore[misc]
             painter.end()  # a painter that outlives its picture would crash
 
     def _draw_labels(self, painter: QPainter, frame: Frame) -> None:
-        scale = text_scale()
-        for item, labels, places in self._labels:
-            room = label_room(item, frame.width, frame.height)
-            pixels = frame.camera.project(places, frame.width, frame.height)
-            for label, (x, y, _), seen in zip(labels, pixels.tolist(), _seen(pixels, frame).tolist(), strict=True):
-                if seen:
-                    draw_label(painter, label, (x, y), self._background, room, scale)
+        ground = Ground(frame.width, frame.height, frame.pixel_ratio, self._background)
+        texts = [_seen_texts(item, labels, places, frame) for item, labels, places in self._labels]
+        floor = [text for each in texts if is_floor(each.item) for text in floor_texts(each, ground)]
+        for placed in arranged([each for each in texts if not is_floor(each.item)], floor, ground):
+            painter.drawImage(placed.at, placed.picture)
 
     def _draw_letters(self, painter: QPainter, frame: Frame) -> None:
         for letters in self._letters:
@@ -86,6 +84,12 @@ def _texts(item: Labels) -> tuple[Labels, list[Label], FloatArray]:
     """An item with those of its labels that can be shown, and their places (k, 3)."""
     labels = [label for label in item.labels if label.text and np.isfinite(label.position).all()]
     return item, labels, np.array([label.position for label in labels], dtype=np.float64).reshape(-1, 3)
+
+
+def _seen_texts(item: Labels, labels: list[Label], places: FloatArray, frame: Frame) -> Texts:
+    pixels = frame.camera.project(places, frame.width, frame.height)
+    seen = np.flatnonzero(_seen(pixels, frame)).tolist()
+    return Texts(item, [labels[i] for i in seen], [(float(pixels[i, 0]), float(pixels[i, 1])) for i in seen])
 
 
 def _letters(item: Triads, background: Color) -> _Letters:

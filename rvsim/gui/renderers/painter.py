@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -19,16 +19,16 @@ from PySide6.QtWidgets import QWidget
 from rvsim.gui.renderers.painter_ink import Stroke, polygon, qcolor, text_scale
 from rvsim.gui.renderers.painter_lens import BOX_TOP, Lens, Seen, clipped_polygon, look_at
 from rvsim.gui.renderers.painter_lines import (
-    Placed,
     dot_strokes,
-    placed_labels,
     polyline_strokes,
+    seen_texts,
     segments_strokes,
     triad_strokes,
 )
 from rvsim.gui.renderers.painter_raster import SolidPicture, render_solids
 from rvsim.gui.renderers.painter_shadow import draw_shadow
 from rvsim.gui.renderers.painter_solids import Solid
+from rvsim.gui.renderers.text_layout import Ground, Placed, arranged, floor_texts, is_floor
 from rvsim.scene import Box, Camera, Capsule, Color, Dots, Item, Labels, Polyline, Scene, Segments, Triads
 from rvsim.scene.floor import FLOOR_KEY
 from rvsim.scene.gizmo import GIZMO_KEY
@@ -65,7 +65,8 @@ def paint_scene(painter: QPainter, scene: Scene, camera: Camera, width: int, hei
     for seen in layers.gizmo:  # nothing hides what is to be taken hold of
         for stroke in _line_strokes(seen, lens, None):
             stroke.draw(painter)
-    for placed in _texts(layers.labels, lens, camera, painter.device().devicePixelRatioF(), scene.background):
+    ground = Ground(lens.width, lens.height, painter.device().devicePixelRatioF(), scene.background)
+    for placed in _texts(layers.labels, lens, camera, ground):
         painter.drawImage(placed.at, placed.picture)
 
 
@@ -132,24 +133,18 @@ def _floor_picture(
     return picture
 
 
-def _texts(labels: list[Seen[Labels]], lens: Lens, camera: Camera, ratio: float, background: Color) -> Iterator[Placed]:
-    """Where all texts go; those of the floor stay where they are while the eye rests."""
-    for seen in labels:
-        if seen.item.key.startswith(FLOOR_KEY):
-            yield from _floor_texts(
-                seen.item, camera, int(lens.width), int(lens.height), ratio, background, text_scale()
-            )
-        else:
-            yield from placed_labels(seen, lens, background, ratio)
+def _texts(labels: list[Seen[Labels]], lens: Lens, camera: Camera, ground: Ground) -> list[Placed]:
+    """Where all texts go; those of the floor are wanted where they were while the eye rests."""
+    scale = text_scale()
+    floor = [text for seen in labels if is_floor(seen.item) for text in _on_floor(seen.item, camera, ground, scale)]
+    return arranged([seen_texts(seen, lens) for seen in labels if not is_floor(seen.item)], floor, ground)
 
 
 @lru_cache(maxsize=2)
-def _floor_texts(
-    item: Labels, camera: Camera, width: int, height: int, ratio: float, background: Color, _scale: float
-) -> list[Placed]:
-    lens = Lens(camera, width, height)
+def _on_floor(item: Labels, camera: Camera, ground: Ground, _scale: float) -> list[Placed]:
+    lens = Lens(camera, int(ground.width), int(ground.height))
     (seen,) = look_at((item,), lens)
-    return placed_labels(Seen(item, seen.eye, seen.pixels), lens, background, ratio)
+    return floor_texts(seen_texts(Seen(item, seen.eye, seen.pixels), lens), ground)
 
 
 def _paint_ghosts(painter: QPainter, ghosts: list[Seen[Solid]], lens: Lens, smooth: bool) -> None:

@@ -4,29 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, Qt
-from PySide6.QtGui import QImage, QPainter, QPolygonF
+from PySide6.QtGui import QPainter, QPolygonF
 
 from rvsim.gui.renderers.painter_ink import (
-    HALO,
     Stroke,
     pen,
     polygon,
     qcolor,
     shaded,
-    text_anchor,
-    text_picture,
-    text_scale,
 )
 from rvsim.gui.renderers.painter_lens import Lens, Seen, clipped_pieces
 from rvsim.gui.renderers.painter_raster import SolidPicture
-from rvsim.gui.renderers.text_room import TextRoom
-from rvsim.scene import Color, Dots, Label, Labels, Polyline, Segments, Triads
-from rvsim.scene.floor import FLOOR_KEY
+from rvsim.gui.renderers.text_layout import Ground, Texts, written
+from rvsim.scene import Color, Dots, Labels, Polyline, Segments, Triads
 from rvsim.scene.palette import axis_colors
 
 FloatArray = NDArray[np.float64]
@@ -224,63 +218,22 @@ def _axis_stroke(depth: float, line: FloatArray, color: Color, letter: str, back
     return Stroke(depth, draw)
 
 
-class Placed(NamedTuple):
-    """A text's picture and where it goes [pixels]."""
-
-    at: QPointF
-    picture: QImage
-
-
-def placed_labels(seen: Seen[Labels], lens: Lens, background: Color, ratio: float) -> list[Placed]:
-    """All texts of an item that are seen, and where, on a device of that pixel ratio."""
-    room, scale = label_room(seen.item, lens.width, lens.height), text_scale()
-    placed = []
-    for label, (x, y), shown in zip(
-        seen.item.labels, seen.pixels.tolist(), lens.before(seen.eye).tolist(), strict=True
-    ):
-        if shown and -200.0 < x < lens.width + 200.0 and -50.0 < y < lens.height + 50.0:
-            place = (x + scale * label.shift[0], y + scale * label.shift[1])
-            text = placed_text(place, label.text, label.color, label.size, background, ratio, room)
-            placed += [] if text is None else [text]
-    return placed
+def seen_texts(seen: Seen[Labels], lens: Lens) -> Texts:
+    """The texts of an item that are before the eye and near the picture."""
+    shown = [
+        (label, (x, y))
+        for label, (x, y), before in zip(
+            seen.item.labels, seen.pixels.tolist(), lens.before(seen.eye).tolist(), strict=True
+        )
+        if before and -200.0 < x < lens.width + 200.0 and -50.0 < y < lens.height + 50.0
+    ]
+    return Texts(seen.item, [label for label, _ in shown], [at for _, at in shown])
 
 
-def label_room(item: Labels, width: float, height: float) -> TextRoom:
-    """Where the texts of an item may lie: the floor's numbers may not lie on one another, as they would from low."""
-    return TextRoom(width, height, apart=item.key.startswith(FLOOR_KEY))
-
-
-def draw_label(
-    painter: QPainter, label: Label, at: tuple[float, float], background: Color, room: TextRoom, scale: float
-) -> None:
-    """A label whose place is seen at a pixel, where there is room for it."""
-    place = (at[0] + scale * label.shift[0], at[1] + scale * label.shift[1])
-    draw_text(painter, place, label.text, label.color, label.size, background, room)
-
-
-def draw_text(
-    painter: QPainter, place: tuple[float, float], text: str, color: Color, size: float, halo: Color,
-    room: TextRoom | None = None,
-) -> None:  # fmt: skip
-    """A text with a halo, its base line starting at `place` [pixels], where there is room for it."""
-    placed = placed_text(place, text, color, size, halo, painter.device().devicePixelRatioF(), room)
-    if placed is not None:
-        painter.drawImage(placed.at, placed.picture)
-
-
-def placed_text(
-    place: tuple[float, float], text: str, color: Color, size: float, halo: Color, ratio: float, room: TextRoom | None
-) -> Placed | None:
-    """A text with a halo, its base line starting at `place` [pixels], on whole pixels of the device.
-
-    A text that would be cut by the edges of the `room` is moved inside, or left out where most of it lies outside: a
-    number without its sign would be another number.
-    """
-    size *= text_scale()
-    picture, (left, up) = text_picture(text, color, size, halo, ratio), text_anchor(size)
-    at: tuple[float, float] | None = (place[0] - left, place[1] - up)
-    if room is not None and at is not None:
-        at = room.place(*at, picture.width() / ratio, picture.height() / ratio, HALO)
-    if at is None:
-        return None
-    return Placed(QPointF(round(at[0] * ratio) / ratio, round(at[1] * ratio) / ratio), picture)
+def draw_text(painter: QPainter, place: tuple[float, float], text: str, color: Color, size: float, halo: Color) -> None:
+    """A text with a halo, its base line starting at `place` [pixels]."""
+    device = painter.device()
+    placed = written(
+        place, text, color, size, Ground(device.width(), device.height(), device.devicePixelRatioF(), halo)
+    )
+    painter.drawImage(placed.at, placed.picture)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 _HIGH = 0.15  # of a line's height there is no ink above and below digits
+_GAP = 3.0  # [pixels] between texts side by side: "200" and "100" are not to become "200100"
+_BESIDE = 9.0  # [pixels] between a text and the point it names
 
 
 class _Ink(NamedTuple):
@@ -16,8 +19,9 @@ class _Ink(NamedTuple):
     bottom: float
 
     def meets(self, other: _Ink) -> bool:
-        across = self.left < other.right and other.left < self.right
-        return across and self.top < other.bottom and other.top < self.bottom
+        return (
+            self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
+        )
 
 
 class TextRoom:
@@ -33,12 +37,46 @@ class TextRoom:
         if left is None or top is None:
             return None
         if self._apart:
-            high = halo + _HIGH * (height - 2 * halo)
-            ink = _Ink(left + halo, top + high, left + width - halo, top + height - high)
+            ink = _ink(left, top, width, height, halo)
             if any(ink.meets(other) for other in self._taken):
                 return None
             self._taken.append(ink)
         return left, top
+
+    def place_near(
+        self, x: float, y: float, width: float, height: float, halo: float, anchor: tuple[float, float]
+    ) -> tuple[float, float] | None:
+        """As `place`; where another text lies already, the first free place about the point `anchor` instead."""
+        wanted = self.place(x, y, width, height, halo)
+        if wanted is not None or moved_inside(x, width, self._width) is None:
+            return wanted
+        if moved_inside(y, height, self._height) is None:
+            return None
+        near = (self.place(*corner, width, height, halo) for corner in _about(anchor, width, height, halo))
+        return next((corner for corner in near if corner is not None), None)
+
+    def take(self, x: float, y: float, width: float, height: float, halo: float) -> None:
+        """A text stands there whatever else does."""
+        self._taken.append(_ink(x, y, width, height, halo))
+
+
+def _ink(left: float, top: float, width: float, height: float, halo: float) -> _Ink:
+    high = halo + _HIGH * (height - 2 * halo)
+    return _Ink(left + halo, top + high, left + width - halo + _GAP, top + height - high)
+
+
+def _about(anchor: tuple[float, float], width: float, height: float, halo: float) -> Iterator[tuple[float, float]]:
+    """Upper left corners: right of a point, left of it, above and below, and then the same further up and down."""
+    x, y = anchor
+    right, left, middle = x + _BESIDE - halo, x - _BESIDE - width + halo, x - 0.5 * width
+    level, step = y - 0.5 * height, height - 2 * halo
+    for lift in (0.0, -step, step):
+        yield right, level + lift
+        yield left, level + lift
+    for lift in (-step, step, -2.0 * step, 2.0 * step):
+        yield middle, level + lift
+        yield right, level + lift
+        yield left, level + lift
 
 
 def moved_inside(start: float, length: float, room: float) -> float | None:
