@@ -31,9 +31,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("save_csv", "&File", "Save path as CSV…", "Save the tracked path with its joints", "Ctrl+Shift+E"),
     ActionSpec("save_motion", "&File", "Save motion as CSV…", "Joints, their rates and the tool, as shown", "Ctrl+E"),
     ActionSpec("save_motion_si", "&File", "Save motion as CSV in SI…", "The same in radians and metres", "Ctrl+Alt+E"),
-    ActionSpec(
-        "save_script", "&File", "Save as Python script…", "Works it out anew with NumPy alone", "Ctrl+Alt+P"
-    ),
+    ActionSpec("save_script", "&File", "Save as Python script…", "Works it out anew with NumPy alone", "Ctrl+Alt+P"),
     ActionSpec("save_animation", "&File", "Save animation…", "The motion as GIF, APNG or WebP", "Ctrl+Alt+A"),
     ActionSpec("import_table", "&File", "Import joints or points…", "From a CSV file", "Ctrl+Alt+I", before=True),
     ActionSpec("open_program", "&File", "Open program…", "Read a program of moves", "Ctrl+Alt+O"),
