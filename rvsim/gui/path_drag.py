@@ -166,6 +166,8 @@ class PathDrag(QObject):
     def _put(self, placement: Placement | None) -> None:
         """Lay it there; None to lay it where it was before the drag."""
         assert self._began is not None
+        if self._session.robot is not self._began[0].robot:
+            return  # what is held was the path of another arm
         task = self._began[0].trajectory
         moved = task if placement is None else placed_task(self._session.robot, task, placement)
         self._session.edit("Move the path", replace(self._session.experiment, trajectory=moved), merge="drag the path")

@@ -12,6 +12,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton, QTableView
 from pytestqt.qtbot import QtBot
 
+from rvsim import load_robot
 from rvsim.experiment.shapes import FormulaShape, PointsShape
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.path import PathPanel
@@ -280,6 +281,20 @@ def test_a_path_is_dragged_and_scaled_in_the_scene_in_one_undo_step_each(desk_of
     assert desk.stage.view.grabber is None
     desk.click("path_place_reset")
     assert desk.task.placement is None
+
+
+def test_a_held_path_is_not_carried_over_to_another_arm(desk_of) -> None:
+    desk = desk_of("ur5e")
+    desk.choose("trajectory_selector", "star")
+    desk.click("path_move_button")
+    drag, none = desk.panel.path_drag, Qt.KeyboardModifier.NoModifier
+    at, way = held(desk, "axis y")
+    drag.press(at)
+    desk.session.use_robot(load_robot("rv-m1"))
+    task = desk.task
+    drag.drag(at + way, none)
+    assert drag.key(Qt.Key.Key_Escape, none, False)
+    assert desk.task is task
 
 
 def test_the_table_of_points_says_why_not_and_goes_there(desk_of) -> None:
