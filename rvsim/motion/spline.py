@@ -43,33 +43,28 @@ def knot_slopes(
     """
     h = np.diff(x)
     rise = np.diff(y, axis=0) / h[:, None]
-    matrix, right = np.zeros((len(x), len(x))), np.zeros_like(y)
-    inner = np.arange(1, len(x) - 1)
-    matrix[inner, inner - 1], matrix[inner, inner + 1] = h[1:], h[:-1]
-    matrix[inner, inner] = 2.0 * (h[:-1] + h[1:])
-    right[inner] = 3.0 * (h[1:, None] * rise[:-1] + h[:-1, None] * rise[1:])
+    below, middle, above, right = np.zeros(len(h)), np.ones(len(x)), np.zeros(len(h)), np.zeros_like(y)
+    below[:-1], above[1:], middle[1:-1] = h[1:], h[:-1], 2.0 * (h[:-1] + h[1:])
+    right[1:-1] = 3.0 * (h[1:, None] * rise[:-1] + h[:-1, None] * rise[1:])
     if ends == "not-a-knot":
-        matrix[0, :2], right[0] = _not_a_knot(h[0], h[1], rise[0], rise[1])
-        matrix[-1, :-3:-1], right[-1] = _not_a_knot(h[-1], h[-2], rise[-1], rise[-2])
+        (middle[0], above[0]), right[0] = _not_a_knot(h[0], h[1], rise[0], rise[1])
+        (middle[-1], below[-1]), right[-1] = _not_a_knot(h[-1], h[-2], rise[-1], rise[-2])
     elif ends == "natural":
-        matrix[0, :2], right[0] = (2.0, 1.0), 3.0 * rise[0]
-        matrix[-1, -2:], right[-1] = (1.0, 2.0), 3.0 * rise[-1]
+        middle[0], above[0], right[0] = 2.0, 1.0, 3.0 * rise[0]
+        below[-1], middle[-1], right[-1] = 1.0, 2.0, 3.0 * rise[-1]
     else:
-        matrix[0, 0] = matrix[-1, -1] = 1.0
         right[0], right[-1] = first, last
-    return np.asarray(np.linalg.solve(matrix, right) if len(x) <= _DENSE else _solve_banded(matrix, right))
+    return _tridiagonal(below, middle, above, right)
 
 
-def _solve_banded(matrix: FloatArray, right: FloatArray) -> FloatArray:
-    """The same for many knots: nothing is further than two places from the diagonal."""
+def _tridiagonal(below: FloatArray, middle: FloatArray, above: FloatArray, right: FloatArray) -> FloatArray:
+    """(k, d) the solution of the system with these diagonals; in time and memory linear in k where k is large."""
+    if len(middle) <= _DENSE:
+        return np.asarray(np.linalg.solve(np.diag(below, -1) + np.diag(middle) + np.diag(above, 1), right))
     from scipy.linalg import solve_banded  # half a second of imports that a short spline does without
 
-    n = len(matrix)
-    bands = np.zeros((5, n))
-    for offset in range(-2, 3):
-        diagonal = np.diagonal(matrix, offset)
-        bands[2 - offset, max(offset, 0) : max(offset, 0) + len(diagonal)] = diagonal
-    return np.asarray(solve_banded((2, 2), bands, right))
+    bands = np.array([np.append(0.0, above), middle, np.append(below, 0.0)])
+    return np.asarray(solve_banded((1, 1), bands, right))
 
 
 def _not_a_knot(h0: float, h1: float, rise0: FloatArray, rise1: FloatArray) -> tuple[list[float], FloatArray]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -204,3 +205,15 @@ def test_the_quickest_way_along_a_straight_line_is_the_trapezoid() -> None:
     way = PiecewisePolynomial(np.array([0.0, 1.0]), np.array([[q0, q1 - q0]]))
     law = quickest_along(way, speed, acceleration)
     assert law.duration == pytest.approx(trapezoid(0.0, q0, q1, speed, acceleration).duration, rel=1e-3)
+
+
+def test_a_spline_through_very_many_points_is_right_and_needs_little_room() -> None:
+    x = np.linspace(0.0, 1.0, 20_001)
+    y = np.column_stack([x**3 - x, 2.0 * x**2 - x**3])  # not-a-knot gives cubics back
+    spline_through(x[:1001], y[:1001], "not-a-knot")  # the solver is imported now
+    tracemalloc.start()
+    way = spline_through(x, y, "not-a-knot")
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most < 100e6
+    np.testing.assert_allclose(way.at(x).qd, np.column_stack([3.0 * x**2 - 1.0, 4.0 * x - 3.0 * x**2]), atol=1e-9)
