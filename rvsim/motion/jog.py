@@ -8,13 +8,13 @@ joint limit or a singularity, and stops at it; a held key never makes it jump.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.kinematics.rates import tool_twist
-from rvsim.motion.jog_course import LONGEST_STEP, Course, JointMotion, ToolMotion, course_of
+from rvsim.motion.jog_course import LONGEST_STEP, Course, JointMotion, Limit, ToolMotion, course_of
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -28,6 +28,7 @@ class JogStep(NamedTuple):
     """Where a jog has come to: q (n,) [rad, m], its speeds qd (n,), the tool's twist (6,) [m/s, rad/s; base axes].
 
     `stopped_reason` is a sentence once the course has ended, else ""; `slowed_reason` says why it is not at full speed.
+    `cause` is what ended the course; None while it goes on, and where the arm cannot do what is wished from the start.
     """
 
     q: FloatArray
@@ -35,6 +36,7 @@ class JogStep(NamedTuple):
     twist: FloatArray
     stopped_reason: str = ""
     slowed_reason: str = ""
+    cause: Limit | Literal["singularity"] | None = None
 
 
 class Jog:
@@ -78,7 +80,9 @@ class Jog:
             self._step(speed_limits, course.end, dt / steps)
         self._q = course.at(self._way)
         qd = self._share * course.rates(self._q)
-        return JogStep(self._q, qd, tool_twist(self._robot, self._q, qd), self._stopped(), course.slowed(self._way))
+        stopped = self._stopped()
+        cause = course.cause if stopped else None
+        return JogStep(self._q, qd, tool_twist(self._robot, self._q, qd), stopped, course.slowed(self._way), cause)
 
     def _course_from(self, q: FloatArray) -> Course:
         if self._course is None or not np.allclose(q, self._q, rtol=0.0, atol=1e-12):

@@ -26,6 +26,7 @@ _SMALLEST = 1e-4  # singular values below are lost; lengths in sizes of the arm
 _DAMPING = 0.02  # of the orientation, which comes second: what it cannot have must not throw the arm about
 _LOST = 1e-2  # of a wished velocity: an arm that misses more cannot do it
 _SLOWEST = 0.05  # of full speed: where a joint's top speed allows no more, a singularity ends the course
+_SIDES = ("lower", "upper")
 _HALVINGS = 5  # of a step: the end of a course is found as closely as that
 _USUAL_SPEED = math.radians(120.0)  # of a joint without a known top speed; a sliding one: the arm's size in 2 s
 
@@ -44,6 +45,19 @@ class JointMotion(NamedTuple):
 
     joint: int
     rate: float
+
+
+class Limit(NamedTuple):
+    """The lower (side 0) or upper (1) limit `value` [rad, m] of a joint (from 0)."""
+
+    joint: int
+    side: int
+    value: float
+
+    @property
+    def side_name(self) -> str:
+        """ "lower" or "upper"."""
+        return _SIDES[self.side]
 
 
 class Point(NamedTuple):
@@ -79,14 +93,17 @@ class Course:
         self, robot: Robot, q: FloatArray, pace: float, guide: Guide, limits: FloatArray, refusal: str = ""
     ) -> None:
         self._robot, self._pace, self._guide = robot, pace, guide
+        self._own_limits = limits
         self._limits = np.stack([np.minimum(limits[:, 0], q), np.maximum(limits[:, 1], q)], axis=1)
         self._top = top_speeds(robot)
         self._ways: list[float] = [0.0]
         self._points: list[FloatArray] = [np.array(q)]
         self._caps: list[float] = []  # one an interval: the share of full speed that the joints can follow
         self._slowest: list[int] = []  # the joint that says so
+        self._broken: Limit | None = None  # by the last point that was tried
         self.end = 0.0 if refusal else math.inf
         self.reason = refusal
+        self.cause: Limit | Literal["singularity"] | None = None  # of its end, where it does not end at once
 
     def reach(self, way: float) -> None:
         """Know the course as far as that, or to its end."""
@@ -97,17 +114,19 @@ class Course:
         problem = self._try(self._pace)
         if not problem:
             return
+        cause: Limit | Literal["singularity"] = self._broken or "singularity"
         step = self._pace
         for _ in range(_HALVINGS):
             step *= 0.5
             self._try(step)
-        self.end, self.reason = self._ways[-1], problem
+        self.end, self.reason, self.cause = self._ways[-1], problem, cause
 
     def _try(self, step: float) -> str:
         """Go on by a step, if the arm can; else the sentence why not."""
         before = self._points[-1]
         point = self._guide.point(before, self._ways[-1] + step)
-        problem = point.problem or self._outside(point.q)
+        self._broken = None if point.problem else self._outside(point.q)
+        problem = point.problem or self._limit_text(self._broken)
         speeds = np.abs(point.q - before) / (step * self._top)
         joint = int(np.argmax(speeds))
         if not problem and speeds[joint] * _SLOWEST > 1.0:
@@ -119,12 +138,17 @@ class Course:
             self._slowest.append(joint)
         return problem
 
-    def _outside(self, q: FloatArray) -> str:
-        for index, side, beyond in ((0, "lower", self._limits[:, 0] - q), (1, "upper", q - self._limits[:, 1])):
+    def _outside(self, q: FloatArray) -> Limit | None:
+        for side, beyond in enumerate((self._limits[:, 0] - q, q - self._limits[:, 1])):
             joint = int(np.argmax(beyond))
-            if beyond[joint] > 0.0 and abs(self._limits[joint, index]) < math.inf:
-                return f"Stopped: the {self._robot.joint_names[joint]} is at its {side} limit."
-        return ""
+            if beyond[joint] > 0.0 and abs(self._limits[joint, side]) < math.inf:
+                return Limit(joint, side, float(self._own_limits[joint, side]))
+        return None
+
+    def _limit_text(self, limit: Limit | None) -> str:
+        if limit is None:
+            return ""
+        return f"Stopped: the {self._robot.joint_names[limit.joint]} is at its {limit.side_name} limit."
 
     # --- along it --------------------------------------------------------------------------------------------------
 
@@ -139,7 +163,7 @@ class Course:
         bulge = share * rest * (rest * (low - rise) + share * (rise - high))
         near = np.asarray(np.clip(one + share * rise + bulge, *self._limits.T))
         exact = self._guide.point(near, way)  # the cubic leaves the line where the joints turn fast
-        return near if exact.problem or self._outside(exact.q) else exact.q
+        return near if exact.problem or self._outside(exact.q) is not None else exact.q
 
     def rates(self, q: FloatArray) -> FloatArray:
         """(n,) how fast the joints move at q (n,), at full speed [rad/s, m/s]."""

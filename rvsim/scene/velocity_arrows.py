@@ -18,6 +18,7 @@ _LONGEST, _HEAD, _RADIUS = 0.3, 0.05, 0.11  # in sizes of the arm
 _LEAST_TURN, _MOST_TURN = math.radians(130.0), math.radians(300.0)
 _STILL = 1e-4  # [sizes of the arm a second, rad/s]: slower is rest
 _SAME = 0.01  # of the wish: nearer than that, one arrow stands for both
+_SLIGHT = 0.01  # of the wish, in radians and sizes of the arm: less turning than that is not drawn
 
 
 def velocity_items(
@@ -52,9 +53,17 @@ def velocity_items(
                 dashed=dashed,
                 longest_head=_HEAD * size,
             )
-        if other[1]:
+        if other[1] and _turns(twist, wished, size):
             items += _turn(f"{_KEY}.{name}.w", p, twist[3:], size, color, palette, dashed=dashed)
+    if not _turns(achieved, wished, size):
+        texts = texts[0], ""
     return (*items, *_labels(p, span, achieved, texts, palette))
+
+
+def _turns(twist: FloatArray, wished: FloatArray, size: float) -> bool:
+    """Whether a twist turns as much as to be told beside the rest of the wish."""
+    whole = float(np.hypot(np.linalg.norm(wished[:3]) / size, np.linalg.norm(wished[3:])))
+    return float(np.linalg.norm(twist[3:])) > max(_STILL, _SLIGHT * whole)
 
 
 def _turn(
@@ -74,7 +83,7 @@ def _labels(
     labels = []
     if span:
         labels.append(Label(p + span * twist[:3], texts[0], palette.actual, (9.0, -10.0), 12.5))
-    if np.linalg.norm(twist[3:]) > _STILL:
+    if texts[1]:
         labels.append(Label(p, texts[1], palette.actual, (24.0, 34.0), 12.5))
     return (Labels(f"{_KEY}.labels", tuple(labels)),) if labels else ()
 

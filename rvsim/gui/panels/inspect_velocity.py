@@ -169,7 +169,7 @@ class VelocityPage(InspectPage):
         twist = np.zeros(6) if step is None else step.twist
         if step is None and self.pad.driver.running:
             return  # the step itself is on its way
-        self.twist.show_values(in_axes(twist, T, self.frame))
+        self.twist.show_values(in_axes(twist, T if step is None else self.pad.T_at_start, self.frame))
         self.twist.show_notes(None)
         self._say("")
         self.test.setText("")

@@ -20,14 +20,17 @@ from PySide6.QtWidgets import (
 )
 
 from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.panels.inspect_velocity_stop import stop_text
 from rvsim.gui.panels.inspect_velocity_words import speed_kinds
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
+from rvsim.kinematics import forward_kinematics
 from rvsim.motion.jog import Jog, JogStep
 from rvsim.motion.jog_course import Axes, JointMotion, ToolMotion
 from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
 
 _FRAME_MS = 16
 _LONGEST = 0.1  # [s] that one step may make up for: a window that was busy must not make the arm leap
@@ -143,7 +146,8 @@ class JogPad(QWidget):
 
     def __init__(self, session: Session, preferences: Preferences, axes: Callable[[], Axes]) -> None:
         super().__init__()
-        self._session, self._axes = session, axes
+        self._session, self._preferences, self._axes = session, preferences, axes
+        self.T_at_start: FloatArray = np.eye(4)  # of the tool, when it began to move: its axes are those it moves along
         self._robot: Robot | None = None
         self.driver = JogDriver(session, self)
         self.driver.moved.connect(self._on_moved)
@@ -242,7 +246,7 @@ class JogPad(QWidget):
             self._add_pair(self._joints, index, index, f"J{index + 1}", ("", ""))
 
     def _on_moved(self, step: JogStep) -> None:
-        text = step.stopped_reason or step.slowed_reason
+        text = stop_text(self._session.robot, step, self._preferences) if step.stopped_reason else step.slowed_reason
         if self.status.text() != text:
             self.status.setText(text)
             set_role(
@@ -259,6 +263,7 @@ class JogPad(QWidget):
         self.held = direction
         self.status.setText("")
         motion, text = self._motion(direction)
+        self.T_at_start = forward_kinematics(self._session.robot, self._session.q)
         self.driver.hold(motion, text)
 
     def release(self) -> None:

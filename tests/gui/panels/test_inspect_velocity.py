@@ -190,7 +190,17 @@ def test_a_limit_stops_it_with_a_sentence(page_of):
     page.pad.hold(Direction(2, -1))
     run(page, 4.0)
     assert not page.pad.driver.running
-    assert page.pad.status.text() == "Stopped: the elbow is at its lower limit."
+    assert page.pad.status.text() == "Stopped: the elbow is at its lower limit, −110.0°."
+
+
+def test_a_singularity_stops_it_with_its_name_and_what_is_lost(page_of):
+    page = page_of("ur5e", np.radians([0.0, -90.0, 90.0, -90.0, -90.0, 0.0]), "jog")
+    page.pad.speed.set_quantity(0.3)
+    page.pad.hold(Direction("x", 1))
+    run(page, 6.0)
+    text = page.pad.status.text()
+    assert text.startswith("Stopped before the elbow singularity, J3 = ")
+    assert "there the tool cannot move along" in text
 
 
 def test_another_arm_ends_it_and_brings_its_own_buttons(page_of, session_with, qtbot):
