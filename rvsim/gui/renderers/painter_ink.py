@@ -30,14 +30,14 @@ def qcolor(color: Color) -> QColor:
     return QColor.fromRgbF(*(min(max(channel, 0.0), 1.0) for channel in color))
 
 
+DASH, GAP = 8.0, 5.0  # [pixels]
+
+
 @lru_cache(maxsize=512)
-def pen(color: Color, width: float, dashed: bool = False) -> QPen:
-    """A pen with round ends; dashes are flat so that the gaps stay open."""
-    cap = Qt.PenCapStyle.FlatCap if dashed else Qt.PenCapStyle.RoundCap
-    made = QPen(qcolor(color), width, Qt.PenStyle.SolidLine, cap, Qt.PenJoinStyle.RoundJoin)
-    if dashed:
-        made.setDashPattern([8.0 / width, 5.0 / width])
-    return made
+def pen(color: Color, width: float, flat: bool = False) -> QPen:
+    """A pen with round ends, or with flat ones, so that the gaps between dashes stay open."""
+    cap = Qt.PenCapStyle.FlatCap if flat else Qt.PenCapStyle.RoundCap
+    return QPen(qcolor(color), width, Qt.PenStyle.SolidLine, cap, Qt.PenJoinStyle.RoundJoin)
 
 
 def shaded(color: Color, factor: float) -> Color:
