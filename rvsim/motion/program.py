@@ -219,8 +219,7 @@ class _Planner:
         all_q = np.concatenate([q[None], tracking.q])
         if find_jumps(self.robot, all_q, path.rotations is not None):
             raise _CannotError(Problem("branch"))
-        actual = forward_kinematics(self.robot, all_q)[:, :3, 3]
-        whole = Tracking(self.robot, path, all_q, (), actual, ignore_limits=self.ignore_limits)
+        whole = Tracking(self.robot, path, all_q, (), ignore_limits=self.ignore_limits)
         motion = trajectory_of(whole, q, path_seconds=0.0, approach_seconds=0.0, law=self.law)
         assert motion is not None
         return motion.stretches[-1]

@@ -39,7 +39,7 @@ def motion_through(
         return approach
     if times is None:
         places = forward_kinematics(robot, poses)[:, :3, 3]
-        tracking = Tracking(robot, Path("record", places), poses, (), places, ignore_limits=True)
+        tracking = Tracking(robot, Path("record", places), poses, (), ignore_limits=True)
         motion = trajectory_of(tracking, start_q, law=law)
         assert motion is not None
         return motion
