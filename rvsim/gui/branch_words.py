@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_number, format_quantity, joint_kind
@@ -24,8 +25,8 @@ def circled(name: str) -> str:
 
 def limit_words(robot: Robot, branch: Branch, preferences: Preferences, between: str = "; ") -> str:
     """Which joints leave their limits: "elbow −156.7° stops at −110.0°"; nothing for a branch within them."""
-    broken = np.flatnonzero(branch.limit_margin < -_TOUCHES)
-    return between.join(_broken(robot, int(joint), float(branch.q[joint]), preferences) for joint in broken)
+    broken = broken_joints(branch).tolist()
+    return between.join(_broken(robot, joint, float(branch.q[joint]), preferences) for joint in broken)
 
 
 def _broken(robot: Robot, joint: int, value: float, preferences: Preferences) -> str:
@@ -35,12 +36,20 @@ def _broken(robot: Robot, joint: int, value: float, preferences: Preferences) ->
     return f"{robot.joint_names[joint]} {texts[0]} stops at {texts[1]}"
 
 
-def worst_limit_words(robot: Robot, branch: Branch, preferences: Preferences) -> str:
-    """The limit that is broken most, short: "elbow stops at −110.0°"."""
-    joint = int(np.argmin(branch.limit_margin))
+def short_limit_words(robot: Robot, branch: Branch, preferences: Preferences) -> str:
+    """The limits that are broken, short: "elbow stops at −110.0°", or of several joints "shoulder, elbow stop"."""
+    broken = broken_joints(branch).tolist() or [int(np.argmin(branch.limit_margin))]
+    if len(broken) > 1:
+        return f"{', '.join(robot.joint_names[joint] for joint in broken)} stop"
+    (joint,) = broken
     lower, upper = robot.limits[joint]
     stop = format_quantity(lower if branch.q[joint] < lower else upper, joint_kind(robot, joint), preferences)
     return f"{robot.joint_names[joint]} stops at {stop}"
+
+
+def broken_joints(branch: Branch) -> NDArray[np.intp]:
+    """The joints (from 0) that a branch takes beyond their limits."""
+    return np.flatnonzero(branch.limit_margin < -_TOUCHES)
 
 
 def margin_words(robot: Robot, branch: Branch, preferences: Preferences) -> str:

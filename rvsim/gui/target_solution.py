@@ -50,7 +50,7 @@ TASK_TITLES = {
     "x,y": "Position in the plane, x and y",
 }
 _KEPT = {"position, wrist kept": (3, 4)}  # the joints that a task leaves as they are
-_PLACES = ("position", "position, wrist kept", "x,y")  # tasks that leave the whole orientation open
+PLACES = ("position", "position, wrist kept", "x,y")  # tasks that leave the whole orientation open
 _CREEPING_STEPS = 8  # of Newton's method, a tenth of a millisecond each
 LEAP = 0.25  # [rad, m] an arm that was left behind goes no further back to the target at once
 _LANDED = 0.02  # [rad, m] what creeping leaves of the way to a branch: it goes slowly where it is singular
@@ -92,7 +92,7 @@ class Question:
     @property
     def place_only(self) -> bool:
         """Whether the orientation is left open."""
-        return self.task in _PLACES
+        return self.task in PLACES
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,6 +24,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, Kind, display, format_number, length_kind, without_unit
 from rvsim.robot import Robot
 from rvsim.robot.mass_edits import MassKey, mass_value
+from rvsim.robot.robot import LinkMass
 
 _TOP = QModelIndex()
 
@@ -53,6 +54,11 @@ def mass_kind(robot: Robot, key: MassKey) -> Kind:
     if key == "mass":
         return "mass"
     return length_kind(robot) if len(key) == 1 else "inertia"
+
+
+def is_unsaid(link: LinkMass, key: MassKey) -> bool:
+    """Whether a moment of inertia is 0 only because the source of the link's mass does not give it."""
+    return len(key) == 2 and bool(link.source) and not link.assumed and mass_value(link, key) == 0.0
 
 
 class MassModel(QAbstractTableModel):
@@ -110,6 +116,8 @@ class MassModel(QAbstractTableModel):
         if not self._robot.masses:
             return "0" if whole else "\u2013"
         key, shown = COLUMNS[index.column() - 1].key, self._shown(index)
+        if not whole and is_unsaid(self._robot.masses[index.row()], key):
+            return "\u2013"
         value = mass_value(self._robot.masses[index.row()], key) * shown.factor
         return f"{value:.12g}" if whole else format_number(value, shown.decimals)
 
@@ -129,6 +137,8 @@ class MassModel(QAbstractTableModel):
         if not self._robot.masses:
             return f"{name}: nothing is known. Double-click or type to enter a number."
         link = self._robot.masses[index.row()]
+        if is_unsaid(link, COLUMNS[index.column() - 1].key):
+            return f"{name}: not in the source ({link.source}), taken as 0."
         return f"{name}. {'Assumed: ' if link.assumed else 'From: '}{link.source or 'its robot file'}."
 
     def setData(self, index: Index, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:

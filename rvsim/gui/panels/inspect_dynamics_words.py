@@ -44,10 +44,21 @@ def mass_note(robot: Robot) -> str:
         parts.append("One unit counts as one metre.")
     if any(link.assumed for link in robot.masses):
         parts.append("Italic: assumed.")
+    parts += _unsaid_note(robot)
     sources = dict.fromkeys(link.source for link in robot.masses if link.source)
     if sources:
         parts.append(f"Source: {'; '.join(sources)}.")
     return " ".join([*parts, "Double-click a number to change it: the arm follows on a copy of your own."])
+
+
+def _unsaid_note(robot: Robot) -> list[str]:
+    """Which moments the source leaves out, and what that makes of the mass matrix."""
+    silent = [not link.assumed and bool(link.source) and not link.inertia.any() for link in robot.masses]
+    if not any(silent):
+        return []
+    others = [f"{number}" for number, unsaid in enumerate(silent, start=1) if not unsaid]
+    but = f" but for link {', '.join(others)}" if others else ""
+    return [f"\u2013: not in the source, taken as 0; the mass matrix is that of point masses{but}."]
 
 
 def torques_title(units: Sequence[str]) -> str:

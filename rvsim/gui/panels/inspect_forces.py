@@ -241,7 +241,7 @@ class ForcesPage(InspectPage):
         self.moments.show_values(self.pull.wrench[3:])
         self.payload.set_quantity(self._stage.load.payload)
         self.hanging.setVisible(self._stage.load.payload > 0.0)
-        show_weight(self.table, self.model, self._weighs())
+        show_weight(self.table, self._weighs())
 
     def _show_largest(self, robot: Robot, q: FloatArray, held: FloatArray) -> None:
         asked = direction_vector(self.directions.currentData(), self.pull.wrench)

@@ -37,7 +37,6 @@ class TorqueModel(QAbstractTableModel):
         self._catch_up = catch_up
         self._robot, self._preferences = robot, preferences
         self._rows: tuple[TorqueRow, ...] = ()
-        self.brief = False  # J2 for the joint, where there is no room for its name
 
     @property
     def rows(self) -> tuple[TorqueRow, ...]:
@@ -82,7 +81,7 @@ class TorqueModel(QAbstractTableModel):
 
     def _text(self, joint: int, row: TorqueRow, column: int) -> str:
         if column == _JOINT:
-            return f"J{joint + 1}" if self.brief else row.name
+            return f"J{joint + 1}"
         if column == _BAR:
             return share_text(row)
         value = {_PUSHED: row.from_wrench, _HELD: row.from_weight, _TOTAL: row.total}[column]
@@ -117,13 +116,12 @@ def torque_table(model: TorqueModel) -> QTableView:
     header = table.horizontalHeader()
     header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
     header.setSectionResizeMode(_BAR, QHeaderView.ResizeMode.Stretch)
-    show_weight(table, model, False)
+    show_weight(table, False)
     return table
 
 
-def show_weight(table: QTableView, model: TorqueModel, on: bool) -> None:
+def show_weight(table: QTableView, on: bool) -> None:
     """With the arm's own weight there are two parts and their sum."""
-    model.brief = on
     table.setColumnHidden(_PUSHED, not on)
     table.setColumnHidden(_HELD, not on)
 

@@ -94,19 +94,20 @@ def largest_text(
     rating = joint.max_torque
     assert rating is not None, "only a rated joint limits"
     limit = format_quantity(rating.value, torque_kind(robot, found.joint), preferences)
+    name = f"J{found.joint + 1} {joint.name}"
     assumed = ", an assumed rating" if rating.assumed else ""
     if found.force == 0.0:
         with_it = f" with {besides}" if besides else ""
-        return f"None: “{joint.name}” is at its {limit} already{with_it}{assumed}."
+        return f"None: {name} is at its {limit} already{with_it}{assumed}."
     amount = format_quantity(found.force, moment_kind(robot) if pure_moment else "force", preferences)
     counted = f" {besides[0].upper()}{besides[1:]} counted in." if besides else ""
-    return f"{amount}: then “{joint.name}” reaches its {limit}{assumed}.{counted}"
+    return f"{amount}: then {name} reaches its {limit}{assumed}.{counted}"
 
 
 def rating_text(row: TorqueRow, robot: Robot, joint: int, preferences: Preferences) -> str:
     """A row in a sentence."""
     kind = torque_kind(robot, joint)
-    total = f"{row.name}: {format_quantity(row.total, kind, preferences)}"
+    total = f"J{joint + 1} {row.name}: {format_quantity(row.total, kind, preferences)}"
     if math.isnan(row.rating):
         return f"{total}. No rating is known."
     origin = "assumed: " if row.rating_assumed else ""

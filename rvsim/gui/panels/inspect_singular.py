@@ -16,8 +16,11 @@ from rvsim.gui.panels.inspect_singular_families import FamilyList
 from rvsim.gui.panels.inspect_singular_scene import ellipse_row_items, ellipsoids_at_tool, lost_items
 from rvsim.gui.panels.inspect_singular_widgets import LightLabel, SigmaBars
 from rvsim.gui.panels.inspect_singular_words import (
+    ALL_ROWS,
     MEASURES,
+    PLACE,
     TASK_TITLES,
+    bars_sentence,
     light_of,
     lost_sentence,
     measure_texts,
@@ -81,7 +84,7 @@ class SingularPage(InspectPage):
         self._lay_out()
 
     def _make_verdict(self) -> None:
-        self.light, self.bars = LightLabel(), SigmaBars()
+        self.light, self.bars, self.bars_note = LightLabel(), SigmaBars(), wrapped_label("muted")
         self.reason, self.lost = wrapped_label("muted"), wrapped_label()
         self.lost.setObjectName("singular_lost")
         set_role(self.lost, level="error")
@@ -120,6 +123,7 @@ class SingularPage(InspectPage):
         self._column.addSpacing(4)
         self._column.addLayout(self._table())
         self._column.addWidget(self.bars)
+        self._column.addWidget(self.bars_note)
         self._column.addLayout(self._threshold_row())
         self._add_section("Ellipsoids at the tool", self._ellipsoid_row(), self.scale)
         self._add_section("Singularities of this arm", self.families)
@@ -205,9 +209,11 @@ class SingularPage(InspectPage):
         self._robot = robot
         self.sources.offer(robot)
         rows = len(task_rows(robot))
-        own, other = (TASK_TITLES[rows], "Place") if rows == 6 else (TASK_TITLES[rows], "All of J")
-        for head, text in zip(self.heads, (own, other), strict=True):
+        own, other = (TASK_TITLES[rows], PLACE) if rows == 6 else (TASK_TITLES[rows], ALL_ROWS)
+        for head, (text, tip) in zip(self.heads, (own, other), strict=True):
             head.setText(text)
+            head.setToolTip(tip)
+        self.bars_note.setText(bars_sentence(robot, rows))
         self.families.show_families(singular_families(robot), _families_note(robot))
         if self.block is not None:
             self._place.removeWidget(self.block)

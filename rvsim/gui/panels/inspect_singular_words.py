@@ -31,7 +31,14 @@ CLOSE = Light("warning", "▲", "Close to a singularity")
 PLACE_SINGULAR = Light("warning", "▲", "The place alone is singular")
 SINGULAR = Light("error", "✖", "Singular")
 
-TASK_TITLES = {6: "Tool", 3: "Place", 4: "Place, yaw", 2: "x, y"}
+PLACE = "Place (v)", "The upper three rows of J alone: moving the tool, whatever it turns."
+ALL_ROWS = "All of J", "All six rows of J, those that this arm's own task does not ask for too."
+TASK_TITLES = {
+    6: ("Tool (v, ω)", "All six rows of J: moving the tool and turning it at once."),
+    3: PLACE,
+    4: ("Place, yaw", "The rows of J that this arm's task asks for: moving, and turning about z."),
+    2: ("x, y", "The rows of J that this arm's task asks for: moving in the plane."),
+}
 MEASURES: tuple[tuple[str, str], ...] = (
     ("σ min", "The smallest singular value of J: how fast the tool moves in its worst direction for joint speeds of "
      "length 1. Metres and radians are mixed in it: compare poses of one arm with it, not arms."),
@@ -67,6 +74,17 @@ def small_number(value: float) -> str:
     if abs(value) < 1e-12:
         return "0"
     return format_number(value, 4) if abs(value) >= 5e-4 else f"{value:.1e}".replace("-", _MINUS)
+
+
+def bars_sentence(robot: Robot, rows: int) -> str:
+    """The scale of the bars and the unit of what they show."""
+    length = "m" if robot.length_unit == "millimetre" else "units"
+    tool = f"{length} and rad together" if rows in (4, 6) else length
+    joint = "rad" if robot.is_revolute.all() else "rad or length"
+    return (
+        f"σ: {tool}, a {joint} of the joints. Logarithmic bars, from σ max down to a ten thousandth of it; "
+        "dashed: the threshold."
+    )
 
 
 def light_of(found: Singularity, threshold: float) -> Light:

@@ -44,6 +44,8 @@ QListWidget { border: 1px solid palette(mid); border-radius: 5px; background: pa
 QListWidget::item { padding: 2px 4px; }
 """
 _ALL = ""
+_POSE_TIP = "Go to the pose at which this shows, as in the text; undo brings the present one back"
+_THERE_TIP = "The arm is at the pose of the text already"
 
 
 class SourcePage(InspectPage):
@@ -215,8 +217,7 @@ class ErratumView(QWidget):
             label.setObjectName(f"source_{part}")
         self.grids = tuple(Grid(f"source_grid_{index}") for index in range(3))
         self.titles = tuple(_small("") for _ in self.grids)
-        tip = "Go to the pose at which this shows, as in the text; undo brings the present one back"
-        self.to_pose = button("source_pose", "Pose of the text", tip, self._go)
+        self.to_pose = button("source_pose", "Pose of the text", _POSE_TIP, self._go)
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -242,7 +243,10 @@ class ErratumView(QWidget):
         """Show an erratum and, where it has numbers, the comparison at the present pose."""
         if entry is not self._entry:
             self._show_formulas(entry)
-        self.to_pose.setEnabled(not np.allclose(self._session.q, entry.pose, atol=1e-9))
+        there = bool(np.allclose(self._session.q, entry.pose, atol=1e-9))
+        self.to_pose.setEnabled(not there)
+        self.to_pose.setToolTip(_THERE_TIP if there else _POSE_TIP)
+        self.here.setText("At the pose of the text" if there else "At this pose")
         self.to_pose.setVisible(comparison is not None)
         self.here.setVisible(comparison is not None)
         if comparison is None:

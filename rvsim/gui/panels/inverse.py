@@ -19,13 +19,14 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, Kind, display, format_quantity, format_scientific, length_kind
 from rvsim.gui.target import TargetControl, Wish
 from rvsim.gui.target_scene import PANEL
-from rvsim.gui.target_solution import CLOSED_FORM, SOLVER_TITLES, TASK_TITLES, Answer, NearestPose
+from rvsim.gui.target_solution import CLOSED_FORM, PLACES, SOLVER_TITLES, TASK_TITLES, Answer, NearestPose
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, column_of, combo, form, scrolled, select
 from rvsim.robot.arrays import FloatArray
 
 _AXES = ("x", "y", "z")
 _HINT = "Point at a branch to see its ghost; click it, or press Enter, to go there."
+_FREE = "What is wanted is the place alone: the orientation is free, and the tool takes whichever comes of it."
 _PASTE_PLACE = "Three numbers can be pasted or typed into any of the boxes."
 _SOUGHT = {False: "Looking for the nearest pose…", True: "The nearest pose is looked for at rest."}
 _UNITS = ("angle_unit", "length_unit", "extra_decimals")
@@ -95,6 +96,7 @@ class TargetSection(QWidget):
 
     def show_target(self, T: FloatArray) -> None:
         """Show a target (4, 4)."""
+        self.angles.set_free(_FREE if self._control.task in PLACES else "")
         self.position.show_values(T[:3, 3])
         self.angles.show_rotation(T[:3, :3])
 
@@ -252,7 +254,8 @@ class InversePanel(QWidget):
         )
 
     def _show_detail(self) -> None:
-        self.detail.setText(self.model.words_of(self._control.lit) or _HINT)
+        hint = _HINT if self.model.rows else ""
+        self.detail.setText(self.model.words_of(self._control.lit) or hint)
 
     def _on_preference(self, name: str) -> None:
         for preference, switch in (("arm_follows", self.follow), ("all_ghosts", self.ghosts)):

@@ -83,7 +83,8 @@ class RowInk:
         painter.drawText(line, LEFT, title)
         if row.stop:
             beside = self.fits_beside(row, line.width())
-            painter.drawText(line if beside else line.translated(0, self.line), RIGHT if beside else LEFT, row.stop)
+            stop = self.metrics[row.here].elidedText(row.stop, Qt.TextElideMode.ElideRight, line.width())
+            painter.drawText(line if beside else line.translated(0, self.line), RIGHT if beside else LEFT, stop)
 
 
 def row_color(palette: QPalette, *, usable: bool, chosen: bool) -> QColor:

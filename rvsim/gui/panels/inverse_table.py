@@ -24,7 +24,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
-from rvsim.gui.branch_words import circled, limit_words, margin_words, worst_limit_words
+from rvsim.gui.branch_words import broken_joints, circled, limit_words, margin_words, short_limit_words
 from rvsim.gui.panels.inverse_rows import PAD, GroundDelegate, RowInk, RowText, row_color
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, text_metrics
 from rvsim.gui.preferences import Preferences
@@ -45,7 +45,7 @@ _TOP = QModelIndex()
 _HERE = 1e-6  # [rad, m] a branch so close is where the arm is
 _HEAD_PADDING = 13  # of the style sheet, both sides together
 _SORT = "Click to sort; the menu of the right button sorts by more"
-_CONTINUUM = "One of infinitely many: a joint may take any value here."
+_CONTINUUM = "∞: one of infinitely many, for a joint, or the tool's orientation, may take any value here."
 
 
 class Row(NamedTuple):
@@ -80,7 +80,7 @@ def columns_of(robot: Robot, preferences: Preferences) -> tuple[Column, ...]:
     """The columns for an arm: the branch, its joints, and its verdict."""
 
     def branch(row: Row) -> str:
-        stop = "" if row.branch.within_limits else f"\n{worst_limit_words(robot, row.branch, preferences)}"
+        stop = "" if row.branch.within_limits else f"\n{short_limit_words(robot, row.branch, preferences)}"
         return _title(row) + stop
 
     first = Column("#", f"The number of the branch, as in the scene. {_SORT}", branch, lambda row: row.name, "⑧")
@@ -154,7 +154,7 @@ def _distance_text(robot: Robot, branch: Branch, preferences: Preferences) -> st
 
 def _looks(row: Row) -> tuple[object, ...]:
     """What a title's cell shows, and how."""
-    broken = int(np.argmin(row.branch.limit_margin)) if not row.branch.within_limits else -1
+    broken = tuple(broken_joints(row.branch).tolist())
     return row.name, row.branch.label, row.branch.continuum, broken, row.usable, row.here
 
 
@@ -237,14 +237,15 @@ class BranchModel(QAbstractTableModel):
     def text_of(self, row: Row) -> RowText:
         """What is written in a row that is seen."""
         endless = " ∞" if row.branch.continuum else ""
-        stop = "" if row.branch.within_limits else worst_limit_words(self._robot, row.branch, self._preferences)
+        stop = "" if row.branch.within_limits else short_limit_words(self._robot, row.branch, self._preferences)
         numbers = tuple(column.text(row) for column in self.columns[1 : 1 + self._robot.dof])
         return RowText(circled(row.name), row.branch.label + endless, stop, numbers, row.usable, row.here)
 
     def words_of(self, name: str | None) -> str:
-        """The whole verdict of the branch of that name, or of the only row; nothing if there is no such branch."""
-        lit = [row for row in self.rows if row.name == name or row.note]
-        return self._words(lit[0]) if lit else ""
+        """The whole verdict of the branch of that name, else of the one where the arm is, or of the only row."""
+        lit = [row for row in self.rows if row.name == name]
+        shown = lit or [row for row in self.rows if row.here or row.note]
+        return self._words(shown[0]) if shown else ""
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """Heads with units."""

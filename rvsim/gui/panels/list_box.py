@@ -24,7 +24,7 @@ class ListBox(QuantityBox):
     def __init__(
         self, kind: Kind, preferences: Preferences, title: str, units: Callable[[], Sequence[str]], hint: str = ""
     ) -> None:
-        self._units, self._hint = units, hint
+        self._units, self._hint, self._tip = units, hint, ""
         super().__init__(kind, preferences, title)
 
     @property
@@ -34,7 +34,13 @@ class ListBox(QuantityBox):
 
     def setToolTip(self, text: str) -> None:
         """The value in full, and the hint."""
+        self._tip = text
         super().setToolTip(f"{text}\n{self._hint}" if self._hint else text)
+
+    def set_hint(self, hint: str) -> None:
+        """Another hint."""
+        self._hint = hint
+        self.setToolTip(self._tip)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """A pasted list is taken at once; all else goes into the box as text."""

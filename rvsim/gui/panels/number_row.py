@@ -45,6 +45,7 @@ class NumberRow(QWidget):
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(2)
         self._names, self._kinds, self._preferences, self._title = names, kinds, preferences, title
+        self.hint = hint
         self.boxes: list[ListBox] = []
         for column, (name, kind) in enumerate(zip(names, kinds, strict=True)):
             box = ListBox(kind, preferences, f"{title} {name}", self._units, hint)

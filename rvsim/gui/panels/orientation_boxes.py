@@ -40,6 +40,7 @@ class OrientationBoxes(QWidget):
         self._R: FloatArray = np.eye(3)
         self._kept: FloatArray | None = None  # the orientation for which the boxes keep what was typed
         self._turning = False
+        self._free = ""  # why they are grey
         self._notation = "rpy"
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -62,6 +63,17 @@ class OrientationBoxes(QWidget):
         for other, row in self.rows.items():
             row.setVisible(other == name)
         self._show()
+
+    def set_free(self, why: str) -> None:
+        """Grey the boxes, for the reason `why`; "" where the orientation counts."""
+        if why == self._free:
+            return
+        self._free = why
+        self.setEnabled(not why)
+        self.setToolTip(why)
+        for row in self.rows.values():
+            for box in row.boxes:
+                box.set_hint(why or row.hint)
 
     def show_rotation(self, R: FloatArray) -> None:
         """Show an orientation (3, 3)."""

@@ -21,6 +21,7 @@ from rvsim.robot import Robot
 
 Kind = Literal["angle", "length", "number"]
 _HOLE = re.compile(r"<(\w+)(,?)>")
+_MINUS_ZERO = re.compile(r"((?:^|[({,]|\\,) *)-(?=0(?:\.0+)?(?![\d.]))")  # a sign before what is rounded to 0
 _FIXED_ANGLE = re.compile(r"([\d.]+)\^\\circ")
 _ROUNDING = 1e-9
 _DEFAULT = Units()
@@ -114,7 +115,7 @@ class Figures:
         if result.kind == "angle" and abs(wrapped(value) - value) > _ROUNDING:
             value = wrapped(value)
             shown += f" \\equiv {self.result(value, 'angle')}"
-        substituted = numbers.replace("*", "\\cdot ")
+        substituted = _MINUS_ZERO.sub(r"\1", numbers).replace("*", "\\cdot ")
         return Equation(result.symbol, symbolic, "" if substituted in (symbolic, shown) else substituted, shown, value)
 
     def matrix(self, left: str, formula: str, entries: ArrayLike, kinds: Sequence[Kind]) -> Equation:

@@ -96,7 +96,7 @@ def test_the_largest_force_names_the_joint_that_limits_it(page_of):
     page = page_of("rv-m1", np.zeros(5))
     robot = page._session.robot
     # At q = 0 the wrist pitch holds fz with d5 = 72 mm of lever, and is rated for 2 N m.
-    assert page.largest.text() == f"{2.0 / 0.072:.1f} N: then “wrist pitch” reaches its 2.00 N m, an assumed rating."
+    assert page.largest.text() == f"{2.0 / 0.072:.1f} N: then J4 wrist pitch reaches its 2.00 N m, an assumed rating."
     assert robot.joints[3].max_torque.value == 2.0
 
 

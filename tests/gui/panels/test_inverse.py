@@ -12,6 +12,7 @@ from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QAbstractButton, QCheckBox, QComboBox, QLabel, QTableView, QWidget
 
 from rvsim.files import load_robot
+from rvsim.gui.branch_words import circled
 from rvsim.gui.panels.inverse import InversePanel, _numeric_note
 from rvsim.gui.panels.inverse_table import NAME_ROLE, SORT_ROLE
 from rvsim.gui.quantities import format_scientific
@@ -191,7 +192,7 @@ def test_why_not_names_the_joint_and_its_limit_and_offers_the_nearest(qtbot, pan
     assert "elbow needs \u2212156.7°, stops at \u2212110.0°" in sentence.text()
     np.testing.assert_array_equal(panel.session.q, home)
     assert len(rows(panel)) == 4
-    assert all("stops at" in row[0] and "stops at" in row[column(panel, "limits")] for row in rows(panel))
+    assert all("stop" in row[0] and "stops at" in row[column(panel, "limits")] for row in rows(panel))
     accept = panel.findChild(QAbstractButton, "accept_nearest_button")
     qtbot.waitUntil(accept.isEnabled)
     accept.click()
@@ -363,3 +364,25 @@ def test_the_branch_keeps_its_name_where_two_singularities_meet(panel_of) -> Non
     q = np.radians([45.0, -90.0, 0.0, 30.0, 180.0, -90.0])
     panel = panel_of("ur5e", q)
     assert branch_at(panel.control.answer, q) is not None
+
+
+def test_where_the_place_alone_is_wanted_the_boxes_of_the_orientation_are_grey_and_say_why(panel_of) -> None:
+    panel = panel_of("ur5e")
+    panel.control.set_task("position")
+    boxes = panel.target.angles
+    assert not boxes.isEnabled()
+    assert "free" in boxes.rows["rpy"].boxes[0].toolTip()
+    panel.control.set_task("pose")
+    assert boxes.isEnabled()
+    assert "free" not in boxes.rows["rpy"].boxes[0].toolTip()
+
+
+def test_a_row_names_every_joint_beyond_its_limits_and_below_the_list_stands_where_the_arm_is(panel_of) -> None:
+    panel = panel_of("rv-m1")
+    assert panel.detail.text().startswith(circled(panel.model.rows[0].name))
+    panel.control.set_target(Wish(down_at(0.11, 0.0, 0.13), "Target", ""))
+    several = [row for row in panel.model.rows if (row.branch.limit_margin < -1e-6).sum() > 1]
+    assert several
+    for row in several:
+        names = [panel.session.robot.joint_names[i] for i in np.flatnonzero(row.branch.limit_margin < -1e-6)]
+        assert panel.model.text_of(row).stop == f"{', '.join(names)} stop"

@@ -352,3 +352,11 @@ def test_latex_of_one_way_has_only_its_steps():
     solution = worked_solution(robot, forward_kinematics(robot, robot.home + 0.1))
     path = solution.solutions[0].path
     assert worked_latex(solution, path).count("\\subsection") == len(solution.along(path)) + 1
+
+
+@pytest.mark.parametrize("name", ["rv-1a", "ur5e", "rrrp", "al5b"])
+def test_no_zero_has_a_sign(name):
+    robot = load_robot(name)
+    for q in (robot.home, np.zeros(robot.dof)):
+        text = worked_latex(worked_solution(robot, forward_kinematics(robot, q)))
+        assert not re.search(r"[(,{=] *-0\.0+(?![\d.])|\\,-0\.0+(?![\d.])", text)
