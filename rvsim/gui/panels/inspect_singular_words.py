@@ -82,7 +82,7 @@ def bars_sentence(robot: Robot, rows: int) -> str:
     tool = f"{length} and rad together" if rows in (4, 6) else length
     joint = "rad" if robot.is_revolute.all() else "rad or length"
     return (
-        f"σ: {tool}, a {joint} of the joints. Logarithmic bars, from σ max down to a ten thousandth of it; "
+        f"σ in {tool} per {joint} of the joints. Logarithmic bars, from σ max down to a ten thousandth of it; "
         "dashed: the threshold."
     )
 

@@ -27,6 +27,7 @@ from rvsim.files.atomic import write_atomically
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_page import InspectPage
+from rvsim.gui.panels.inspect_workspace_query import PointQuery
 from rvsim.gui.panels.inspect_workspace_words import (
     COLORS,
     EMPTY,
@@ -47,18 +48,20 @@ from rvsim.gui.panels.inspect_workspace_words import (
 from rvsim.gui.panels.inspect_workspace_worker import Survey, Surveyor
 from rvsim.gui.picture import save_image
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.quantities import Display, display, length_kind
+from rvsim.gui.quantities import Display, display, format_number, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.widgets import button, column_of, combo, scrolled, select
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.workspace import SectionMap
+from rvsim.robot.arrays import FloatArray
 from rvsim.scene.cloud import cloud_items, section_items
 from rvsim.scene.primitives import Item
 
 if TYPE_CHECKING:
     from rvsim.gui.panels.inspect_workspace_map import ScaleBar, SectionPlot
 
+_POINT = "Point at the map for the place there; click to ask for it below."
 _BESIDE = 0.02  # of the map's width: how far the tool may stand beside the plane of a section and still be in it
 
 
@@ -75,6 +78,11 @@ class WorkspacePage(InspectPage):
         self._plot: SectionPlot | None = None
         self._bar: ScaleBar | None = None
         self._make_choices()
+        self.query = PointQuery(session, preferences)
+        self.query.asked.connect(self._refresh_if_seen)
+        self.query.refused.connect(self._session.warn)
+        self.pointed = wrapped_label("muted")
+        self.pointed.setObjectName("workspace_pointed")
         self.surveyor = Surveyor(self)
         self.surveyor.progressed.connect(self._on_progress)
         self.surveyor.done.connect(self._on_done)
@@ -99,9 +107,10 @@ class WorkspacePage(InspectPage):
         for number, text in POSES.items():
             self.poses.addItem(text, number)
         select(self.poses, 1_000_000)
-        for box in (self.colors, self.sections):
+        for box in (self.colors, self.sections, self.limits):
             box.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
         self.orientations.currentIndexChanged.connect(lambda _: self._offer())
+        self.orientations.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
         self.in_scene = QCheckBox("Show in scene")
         self.in_scene.setObjectName("workspace_in_scene")
         self.in_scene.setChecked(True)
@@ -146,6 +155,8 @@ class WorkspacePage(InspectPage):
         for label in (self.progress, self.state, self.place, self.figure):
             self._column.addWidget(label)
         self._column.addLayout(save)
+        self._column.addSpacing(8)
+        self._column.addWidget(self.query)
         self._column.addStretch(0)
         column_of(self, scrolled(inside))
 
@@ -155,8 +166,11 @@ class WorkspacePage(InspectPage):
             from rvsim.gui.panels.inspect_workspace_map import ScaleBar, SectionPlot
 
             self._plot, self._bar = SectionPlot(self._preferences), ScaleBar(self._preferences)
+            self._plot.pointed.connect(self._show_pointed)
+            self._plot.clicked.connect(lambda u, v: self.query.ask(self._at(u, v)))
             at = self._column.indexOf(self.place)
             self._column.insertWidget(at, self._bar)
+            self._column.insertWidget(at, self.pointed)
             self._column.insertWidget(at, self._plot, 1)
         return self._plot, self._bar
 
@@ -216,6 +230,8 @@ class WorkspacePage(InspectPage):
     def refresh(self) -> None:
         """The map where something new is to be seen in it, the tool in any case."""
         survey = self.survey
+        held, ignored = self.orientations.currentData() == "fixed", self.limits.currentData() == "ignored"
+        self.query.refresh(held=held, ignore_limits=ignored)
         for widget in (self.copy, self.save_csv, self.save_png):
             widget.setEnabled(survey is not None)
         self.figure.setText(FIGURES.get(self._session.robot.name, ""))
@@ -238,8 +254,22 @@ class WorkspacePage(InspectPage):
             self._shown = ()
         super().set_seen(seen)
 
+    def _at(self, u: float, v: float) -> FloatArray:
+        """(3,) the place in base axes at (u, v) [m] of the map."""
+        assert self.section is not None
+        return self.section.place((u, v))
+
+    def _show_pointed(self, u: float, v: float) -> None:
+        """Where the pointer is; nan where it has left."""
+        if self.section is None or math.isnan(u):
+            self.pointed.setText(_POINT)
+            return
+        x, y, z = (format_number(value * self._length.factor, self._length.decimals) for value in self._at(u, v))
+        self.pointed.setText(f"x {x}, y {y}, z {z}{self._length.suffix}")
+
     def _show_nothing(self) -> None:
         self._shown = ()
+        self.pointed.setText("")
         self.state.setText(EMPTY)
         self.place.setText("")
         self.draw(())
@@ -266,6 +296,7 @@ class WorkspacePage(InspectPage):
         values = values_of(survey, section, self.colors.currentData())
         plot.show_section(section, values, axis_titles(section, kind), self._length)
         bar.show_values(values)
+        self._show_pointed(math.nan, math.nan)
         counted = self.colors.currentData() != "branches" or section.branches is not None
         self.state.setText(done_sentence(survey) if counted else "Press Sample again to count the branches.")
         self.place.setText(section_sentence(survey, kind, self._preferences))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPaintEvent, QWheelEvent
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QLinearGradient, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rvsim.gui.panels.inspect_workspace_words import Values
@@ -51,11 +51,21 @@ class _MinusAxis(pg.AxisItem):  # type: ignore[misc]
 
 
 class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
-    """A section in its own plane: cells, rim, and the tool where it is now. Nothing in it is dragged or zoomed."""
+    """A section in its own plane: cells, rim, and the tool where it is now. Nothing in it is dragged or zoomed.
+
+    Signals:
+        pointed(u, v): the pointer is there [m]; nan when it has left.
+        clicked(u, v): there was a click [m].
+    """
+
+    pointed = Signal(float, float)
+    clicked = Signal(float, float)
 
     def __init__(self, preferences: Preferences) -> None:
         super().__init__(background=None, axisItems={side: _MinusAxis(side) for side in ("left", "bottom")})
         self._preferences = preferences
+        self._factor = 1.0
+        self.setMouseTracking(True)
         self.setObjectName("workspace_map")
         self.setAccessibleName("Section of the workspace")
         self.setMouseEnabled(x=False, y=False)
@@ -77,7 +87,7 @@ class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
 
     def show_section(self, section: SectionMap, values: Values, titles: tuple[str, str], shown: Display) -> None:
         """Another section, in the unit that is shown."""
-        theme = THEMES[self._preferences["theme"]]
+        theme, self._factor = THEMES[self._preferences["theme"]], shown.factor
         self.setBackground(theme.base)
         low, high = section.grid.lower * shown.factor, section.grid.upper * shown.factor
         self.cells.setImage(map_image(values, section.reached, dark=theme.dark), levels=(0, 255))
@@ -117,6 +127,25 @@ class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
         self.cells.clear()
         self.rim.setData([], [])
         self.tool.setData([], [])
+
+    def place_at(self, position: QPointF) -> tuple[float, float]:
+        """(u, v) [m] at a pixel of the widget."""
+        place = self.getViewBox().mapSceneToView(self.mapToScene(position.toPoint()))
+        return place.x() / self._factor, place.y() / self._factor
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Tell where the pointer is."""
+        self.pointed.emit(*self.place_at(event.position()))
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Somebody asks for that place."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.clicked.emit(*self.place_at(event.position()))
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """The pointer is elsewhere."""
+        super().leaveEvent(event)
+        self.pointed.emit(float("nan"), float("nan"))
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """What is around may scroll."""

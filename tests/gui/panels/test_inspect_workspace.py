@@ -207,3 +207,46 @@ def test_a_page_that_is_destroyed_while_it_works_takes_its_thread_along(page_of,
     shiboken6.delete(page)  # without close_worker
     page_of.made.clear()
     assert not any(thread.name == "rvsim-worker" for thread in threading.enumerate())
+
+
+def ask(page: WorkspacePage, *point: float) -> str:
+    page.query.ask(np.array(point))
+    return page.query.answer.text()
+
+
+def test_a_place_is_asked_for_in_three_boxes_and_answered_by_the_closed_form(page_of) -> None:
+    page = page_of("articulated")
+    robot, q = page._session.robot, page._session.q
+    np.testing.assert_allclose(page.query.place.values, forward_kinematics(robot, q)[:3, 3])
+    reached = forward_kinematics(robot, np.array([0.2, 0.4, -1.0]))[:3, 3]
+    assert ask(page, *reached).startswith("Yes: ")
+    assert "branch" in page.query.answer.text()
+    far = ask(page, 10.0 * robot.size, 0.0, 0.0)
+    assert far.startswith("No: the tool comes no nearer than ")
+    page.query.at_tool.click()
+    np.testing.assert_allclose(page.query.place.values, forward_kinematics(robot, q)[:3, 3])
+
+
+def test_the_answer_obeys_the_limits_that_are_chosen(page_of) -> None:
+    page = page_of("rv-m1")
+    beyond = forward_kinematics(page._session.robot, np.radians([170.0, 20.0, -40.0, 0.0, 0.0]))[:3, 3]
+    assert ask(page, *beyond).startswith("No")
+    page.limits.setCurrentIndex(page.limits.findData("ignored"))
+    assert page.query.answer.text().startswith("Yes")
+
+
+def test_an_arm_in_a_plane_reaches_nothing_beside_it(page_of) -> None:
+    page = page_of("planar")
+    x, y, z = forward_kinematics(page._session.robot, page._session.q)[:3, 3]
+    assert ask(page, x, y, z).startswith("Yes")
+    assert "outside of it" in ask(page, x, y, z + 1.0)
+
+
+def test_the_pointer_on_the_map_tells_its_place_and_a_click_asks_for_it(page_of, qtbot) -> None:
+    page = sampled(page_of("rv-m1"), qtbot)
+    page._plot.pointed.emit(0.3, 0.2)
+    assert page.pointed.text() == "x 300.0, y 0.0, z 200.0 mm"
+    page._plot.clicked.emit(0.3, 0.2)
+    np.testing.assert_allclose(page.query.place.values, [0.3, 0.0, 0.2], atol=1e-12)
+    page._plot.pointed.emit(float("nan"), float("nan"))
+    assert page.pointed.text().startswith("Point at the map")
