@@ -219,10 +219,14 @@ def test_the_wall_shows_every_branch_and_the_table_lights_one(qtbot, window_of) 
     assert sorted("".join(label.text for label in names.labels).replace(" ", "")) == list("①②③④⑤⑥⑦⑧")
     table = branch_table(window)
     index = table.model().index(3, 0)
-    for shift in (2, 0):
-        qtbot.mouseMove(table.viewport(), table.visualRect(index).center() + QPoint(shift, 0))
     name = index.data(NAME_ROLE)
-    qtbot.waitUntil(lambda: any(key.startswith(f"ghost{name}.") for key in ghosts(window)))
+
+    def hovered() -> bool:  # again and again: the rows get their heights when the panel has its width
+        for shift in (2, 0):
+            qtbot.mouseMove(table.viewport(), table.visualRect(index).center() + QPoint(shift, 0))
+        return any(key.startswith(f"ghost{name}.") for key in ghosts(window))
+
+    qtbot.waitUntil(hovered)
     window.findChild(QWidget, "all_ghosts_switch").click()
     qtbot.waitUntil(lambda: all(key.startswith(f"ghost{name}.") for key in ghosts(window) if key != "ghosts.names"))
     window.docks.show_panel("path")
