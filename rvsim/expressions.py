@@ -71,19 +71,23 @@ def evaluate(text: str) -> float:
     Raises:
         ExpressionError: the text is empty, too long, no expression, or not a finite number.
     """
-    cleaned = text.strip().translate(_TYPOGRAPHY)
-    if not cleaned:
-        raise ExpressionError(text, "it is empty")
-    if len(cleaned) > _LONGEST:
-        raise ExpressionError(text[:20] + "…", f"it is longer than {_LONGEST} characters")
-    if _DECIMAL_COMMA.match(cleaned):
-        cleaned = cleaned.replace(",", ".")
+    cleaned = _cleaned(text)
     try:
         return _finite(text, float(cleaned))
     except ValueError as problem:
         if isinstance(problem, ExpressionError):
             raise
     return _finite(text, _evaluated(text, cleaned))
+
+
+def _cleaned(text: str) -> str:
+    """As Python writes it: no typographic signs, points for decimal commas; neither empty nor too long."""
+    cleaned = text.strip().translate(_TYPOGRAPHY)
+    if not cleaned:
+        raise ExpressionError(text, "it is empty")
+    if len(cleaned) > _LONGEST:
+        raise ExpressionError(text[:20] + "…", f"it is longer than {_LONGEST} characters")
+    return cleaned.replace(",", ".") if _DECIMAL_COMMA.match(cleaned) else cleaned
 
 
 def _evaluated(text: str, cleaned: str) -> float:
@@ -113,13 +117,7 @@ def evaluate_formula(text: str, t: NDArray[np.float64]) -> NDArray[np.float64]:
     Raises:
         ExpressionError: the text is empty, too long, no formula, or not finite everywhere.
     """
-    cleaned = text.strip().translate(_TYPOGRAPHY).replace("^", "**")
-    if not cleaned:
-        raise ExpressionError(text, "it is empty")
-    if len(cleaned) > _LONGEST:
-        raise ExpressionError(text[:20] + "…", f"it is longer than {_LONGEST} characters")
-    if _DECIMAL_COMMA.match(cleaned):
-        cleaned = cleaned.replace(",", ".")
+    cleaned = _cleaned(text).replace("^", "**")
     value = _formula_value(text, cleaned, t)
     try:
         values = np.broadcast_to(np.asarray(value, dtype=np.float64), t.shape)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPalette, QPen
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QWidget
 
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number
 from rvsim.gui.theme import number_font
+from rvsim.gui.widgets import PaintedLines
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.palette import axis_colors
 from rvsim.scene.primitives import Color
@@ -22,8 +23,10 @@ _MARGIN = 13.0  # between a bracket and the numbers
 _TINT = 26  # of 255: a column's colour behind its numbers
 
 
-class MatrixView(QWidget):
+class MatrixView(PaintedLines):
     """Shows a transform; its translation in the user's unit; `text()` is what it shows, for screen readers."""
+
+    narrowest = 240
 
     def __init__(self, preferences: Preferences, title: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -31,7 +34,6 @@ class MatrixView(QWidget):
         self._matrix: FloatArray = np.eye(4)
         self._kind: Kind = "length"
         self._cells: list[list[str]] = []
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(title)
         self.show_matrix(self._matrix, self._kind)
 
@@ -55,16 +57,6 @@ class MatrixView(QWidget):
     def sizeHint(self) -> QSize:
         """Four rows, the letters above, the last column's unit below."""
         return QSize(320, int(5.2 * self._line_height() + 8))
-
-    def minimumSizeHint(self) -> QSize:
-        """As low as the hint, narrower."""
-        return QSize(240, self.sizeHint().height())
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another font needs another height."""
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange:
-            self.updateGeometry()
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Letters, tints, numbers, brackets."""

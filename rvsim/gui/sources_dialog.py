@@ -10,12 +10,12 @@ from PySide6.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLineEdit, QProgr
 
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.parts_worker import PartsWorker
 from rvsim.gui.sources_show import show_experiment
 from rvsim.gui.sources_table import SourcesFilter, SourcesModel, fit_rows, sources_view
-from rvsim.gui.sources_worker import SourcesWorker
 from rvsim.gui.widgets import button, combo
 from rvsim.lab.sources.experiments import SOURCE_TITLES, experiment_of
-from rvsim.lab.sources.reproduce import KeyedReproduction, Reproduction, reproduction_text
+from rvsim.lab.sources.reproduce import KeyedReproduction, Reproduction, reproduction_parts, reproduction_text
 from rvsim.lab.sources.reproduction_texts import reproduction_csv, reproduction_latex, row_sentence
 
 if TYPE_CHECKING:
@@ -37,9 +37,8 @@ class SourcesDialog(QDialog):
         self.model = SourcesModel(window.preferences)
         self.filter = SourcesFilter(self.model)
         self.table = sources_view(self.filter)
-        self.worker = SourcesWorker(self)
-        self.worker.progressed.connect(lambda share: self.progress.setValue(int(share * _STEPS)))
-        self.worker.done.connect(self._on_done)
+        self.worker = PartsWorker(self)
+        self.worker.part.connect(self._on_part)
         self._make_choices()
         self._make_foot()
         self._lay_out()
@@ -109,7 +108,8 @@ class SourcesDialog(QDialog):
         super().showEvent(event)
         if not self.model.rowCount():
             self.progress.show()
-            self.worker.start()
+            if not self.worker.busy:
+                self.worker.start(reproduction_parts)
             self._show_sentence()
 
     def close_worker(self) -> None:
@@ -123,9 +123,12 @@ class SourcesDialog(QDialog):
             self.hide()
         return super().eventFilter(watched, event)
 
-    def _on_done(self, rows: tuple[KeyedReproduction, ...]) -> None:
+    def _on_part(self, part: float | tuple[KeyedReproduction, ...]) -> None:
+        if isinstance(part, float):
+            self.progress.setValue(int(part * _STEPS))
+            return
         self.progress.hide()
-        self.model.show_rows(rows)
+        self.model.show_rows(part)
         self._narrow()
 
     # --- showing ---------------------------------------------------------------------------------------------------

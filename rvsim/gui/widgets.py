@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from PySide6.QtCore import QSignalBlocker, QSize, Qt
+from PySide6.QtCore import QEvent, QSignalBlocker, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QComboBox,
@@ -80,6 +80,29 @@ def column_of(widget: QWidget, first: QWidget, *others: QWidget) -> None:
     column.addWidget(first, 1)
     for other in others:
         column.addWidget(other)
+
+
+class PaintedLines(QWidget):
+    """A read-out that paints its own text: always as high as its hint, which follows the font, and narrower if need be.
+
+    The height is for those who derive from it: in `sizeHint`.
+    """
+
+    narrowest = 120  # [pixels]
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def minimumSizeHint(self) -> QSize:
+        """As high as the hint, narrower."""
+        return QSize(self.narrowest, self.sizeHint().height())
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another font: another height."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self.updateGeometry()
 
 
 class ElidedLabel(QLabel):

@@ -64,7 +64,7 @@ def rows() -> tuple[KeyedReproduction, ...]:
 @pytest.fixture
 def dialog(window: MainWindow, rows: tuple[KeyedReproduction, ...], monkeypatch, qtbot: QtBot) -> SourcesDialog:
     """The table with its rows worked out beforehand."""
-    monkeypatch.setattr("rvsim.gui.sources_worker.reproduce_by_key", lambda _tell: rows)
+    monkeypatch.setattr("rvsim.gui.sources_dialog.reproduction_parts", lambda: iter([rows]))
     made = sources_dialog(window)
     with qtbot.waitSignal(made.worker.done, timeout=LONG_MS):
         made.show_source("")
@@ -147,7 +147,7 @@ def test_pages_show_what_the_experiment_is_about(window: MainWindow) -> None:
 
 def test_the_table_works_its_rows_out_beside_the_window(window: MainWindow, qtbot: QtBot) -> None:
     made, shares = sources_dialog(window), []
-    made.worker.progressed.connect(shares.append)
+    made.worker.part.connect(lambda part: shares.append(part) if isinstance(part, float) else None)
     with qtbot.waitSignal(made.worker.done, timeout=LONG_MS):
         made.show_source("")
         assert made.progress.isVisible()
@@ -220,7 +220,7 @@ def every_action(menu: QMenu) -> list[QAction]:
 
 
 def test_the_menu_leads_to_every_experiment_and_to_the_table(window: MainWindow, monkeypatch) -> None:
-    monkeypatch.setattr("rvsim.gui.sources_worker.reproduce_by_key", lambda _tell: ())
+    monkeypatch.setattr("rvsim.gui.sources_dialog.reproduction_parts", lambda: iter(()))
     menu = window.findChild(QMenu, "sources_menu")
     menus = [window.findChild(QMenu, f"source_{source}_menu") for source in SOURCE_TITLES]
     assert all(inner.menuAction() in menu.actions() for inner in menus)

@@ -31,8 +31,8 @@ class InspectPage(ReadOutPanel):
         super().__init__(session, preferences, parent)
         self._stage = stage
         self._seen = False
-        self._later = QTimer(self, singleShot=True, interval=_REST_MS)
-        self._later.timeout.connect(self.catch_up)
+        self._at_rest = QTimer(self, singleShot=True, interval=_REST_MS)
+        self._at_rest.timeout.connect(self.catch_up)
         self.setObjectName(f"{self.name}_page")
 
     @property
@@ -60,7 +60,7 @@ class InspectPage(ReadOutPanel):
         if self._seen or (self.always and not self._session.continuing):
             self.catch_up()
         elif self.always:
-            self._later.start()
+            self._at_rest.start()
 
     def catch_up(self) -> None:
         """Work out what has been put off."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from PySide6.QtCore import QEvent, QRectF, QSize, Qt
+from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPalette, QPen
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_singular_words import CLEAR, Light, small_number
 from rvsim.gui.theme import THEMES, number_font, set_role
+from rvsim.gui.widgets import PaintedLines
 from rvsim.robot.arrays import FloatArray
 
 _DECADES = 4.0  # the bars reach from σ max down to a ten thousandth of it
@@ -44,7 +45,7 @@ class LightLabel(QWidget):
         set_role(self.word, level=light.level)
 
 
-class SigmaBars(QWidget):
+class SigmaBars(PaintedLines):
     """The singular values as bars on a logarithmic scale, the threshold as a line."""
 
     def __init__(self) -> None:
@@ -58,7 +59,6 @@ class SigmaBars(QWidget):
             "All singular values of J, the largest on top, on a logarithmic scale of four decades. The line marks "
             "where the light turns: the lowest bar should reach beyond it."
         )
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def show_values(self, values: FloatArray, threshold: float, level: str) -> None:
         """Show them (k,); `threshold` is a share of the largest, `level` the light of the smallest."""
@@ -72,16 +72,6 @@ class SigmaBars(QWidget):
     def sizeHint(self) -> QSize:
         """One line a value."""
         return QSize(240, int(len(self._values) * self._line() + 2))
-
-    def minimumSizeHint(self) -> QSize:
-        """As high, narrower."""
-        return QSize(120, self.sizeHint().height())
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another font: another height."""
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange:
-            self.updateGeometry()
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Names, bars, numbers, and the threshold."""
@@ -125,7 +115,7 @@ def _share(ratio: float) -> float:
     return 0.0 if ratio <= 0.0 else min(1.0, max(0.0, 1.0 + math.log10(ratio) / _DECADES))
 
 
-class NumberGrid(QWidget):
+class NumberGrid(PaintedLines):
     """A small matrix in brackets, numbers aligned, a name above each column."""
 
     def __init__(self, title: str) -> None:
@@ -133,7 +123,6 @@ class NumberGrid(QWidget):
         self._rows: tuple[tuple[str, ...], ...] = ()
         self._heads: tuple[str, ...] = ()
         self.setAccessibleName(title)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def show_numbers(self, rows: Sequence[Sequence[str]], heads: Sequence[str]) -> None:
         """Show these texts under these heads."""
@@ -151,16 +140,6 @@ class NumberGrid(QWidget):
     def sizeHint(self) -> QSize:
         """The heads and the rows."""
         return QSize(260, int((len(self._rows) + 1) * self._line() + 4))
-
-    def minimumSizeHint(self) -> QSize:
-        """As high, narrower."""
-        return QSize(120, self.sizeHint().height())
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Another font: another height."""
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange:
-            self.updateGeometry()
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Heads, numbers, brackets."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,6 +29,7 @@ from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_page import InspectPage
 from rvsim.gui.panels.inspect_workspace_query import PointQuery
+from rvsim.gui.panels.inspect_workspace_survey import Survey, survey_parts
 from rvsim.gui.panels.inspect_workspace_words import (
     COLORS,
     EMPTY,
@@ -45,7 +47,7 @@ from rvsim.gui.panels.inspect_workspace_words import (
     task_of,
     values_of,
 )
-from rvsim.gui.panels.inspect_workspace_worker import Survey, Surveyor
+from rvsim.gui.parts_worker import PartsWorker
 from rvsim.gui.picture import save_image
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, display, format_number, length_kind
@@ -83,18 +85,17 @@ class WorkspacePage(InspectPage):
         self.query.refused.connect(self._session.warn)
         self.pointed = wrapped_label("muted")
         self.pointed.setObjectName("workspace_pointed")
-        self.surveyor = Surveyor(self)
-        self.surveyor.progressed.connect(self._on_progress)
-        self.surveyor.done.connect(self._on_done)
-        surveyor = self.surveyor
-        self.destroyed.connect(lambda: surveyor.close())
+        self.worker = PartsWorker(self)
+        self.worker.part.connect(self._on_part)
+        worker = self.worker
+        self.destroyed.connect(lambda: worker.close())
         self._offer()
         self._lay_out()
         self._show_busy(False)
 
     def close_worker(self) -> None:
         """End the thread, for the window closes."""
-        self.surveyor.close()
+        self.worker.close()
 
     # --- making ------------------------------------------------------------------------------------------------------
 
@@ -190,17 +191,20 @@ class WorkspacePage(InspectPage):
         """Work out what the choices ask for."""
         boxes = {"orientation": self.orientations, "color": self.colors, "poses": self.poses, "limits": self.limits}
         choices = {name: box.currentData() for name, box in boxes.items()}
-        self.surveyor.start(task_of(self._session.robot, self._session.q, choices))
+        self.worker.start(partial(survey_parts, task_of(self._session.robot, self._session.q, choices)))
         self._show_busy(True)
 
     def give_up(self) -> None:
         """Stop; what was shown before stays."""
-        self.surveyor.cancel()
+        self.worker.cancel()
         self._show_busy(False)
         self._session.say("Given up. The map is as it was before.")
 
-    def _on_progress(self, share: float) -> None:
-        self.progress.setValue(round(1000 * share))
+    def _on_part(self, part: float | Survey) -> None:
+        if isinstance(part, Survey):
+            self._on_done(part)
+        else:
+            self.progress.setValue(round(1000 * part))
 
     def _on_done(self, survey: Survey) -> None:
         self._show_busy(False)
@@ -220,7 +224,7 @@ class WorkspacePage(InspectPage):
     def concerns(self, before: Experiment, after: Experiment) -> bool:
         """Another arm: another workspace."""
         if after.robot is not before.robot:
-            self.surveyor.cancel()
+            self.worker.cancel()
             self._show_busy(False)
             self.survey = None
             self._offer()

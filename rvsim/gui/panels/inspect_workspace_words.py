@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rvsim.gui.panels.inspect_workspace_worker import Survey
+from rvsim.gui.panels.inspect_workspace_survey import Survey
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, format_quantity, length_kind
 from rvsim.kinematics.workspace import SectionMap, WorkspaceTask, has_branches, holds_orientation

@@ -11,10 +11,10 @@ from PySide6.QtWidgets import QGroupBox, QHBoxLayout, QProgressBar, QVBoxLayout,
 from rvsim.experiment import Experiment
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.how_steps import wrapped_label
-from rvsim.gui.panels.inspect_page import InspectPage
 from rvsim.gui.panels.path_best_way import BestWaySection
 from rvsim.gui.panels.path_check_rows import FindingList
-from rvsim.gui.panels.path_parts_worker import PartsWorker
+from rvsim.gui.panels.path_page import PathPage
+from rvsim.gui.parts_worker import PartsWorker
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import shown_units
 from rvsim.gui.session import Session
@@ -40,7 +40,7 @@ class _Checked(NamedTuple):
     report: Report
 
 
-class CheckPage(InspectPage):
+class CheckPage(PathPage):
     """Checks the tracking when it is another one; looks for repairs beside the window."""
 
     title = "Check"
@@ -55,8 +55,7 @@ class CheckPage(InspectPage):
         motion: MotionControl,
         parent: QWidget | None = None,
     ) -> None:
-        super().__init__(session, preferences, stage, parent)
-        self._tracker, self._motion = tracker, motion
+        super().__init__(session, preferences, stage, tracker, motion, parent)
         self._checked: _Checked | None = None
         self.offers: list[Offer] = []
         self.worker = PartsWorker(self)

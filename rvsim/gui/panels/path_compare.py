@@ -12,9 +12,9 @@ from rvsim.experiment import Experiment
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
-from rvsim.gui.panels.inspect_page import InspectPage
-from rvsim.gui.panels.path_parts_worker import PartsWorker
+from rvsim.gui.panels.path_page import PathPage
 from rvsim.gui.panels.path_rows import RowsModel, TextRow, as_csv, as_text, rows_table
+from rvsim.gui.parts_worker import PartsWorker
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_scientific, length_kind
 from rvsim.gui.session import Session
@@ -36,7 +36,7 @@ _COPY_HEADS = (
 )  # fmt: skip
 
 
-class ComparePage(InspectPage):
+class ComparePage(PathPage):
     """A button, a table that fills row by row, and what the rows mean."""
 
     title = "Compare"
@@ -51,8 +51,7 @@ class ComparePage(InspectPage):
         motion: MotionControl,
         parent: QWidget | None = None,
     ) -> None:
-        super().__init__(session, preferences, stage, parent)
-        self._tracker, self._motion = tracker, motion
+        super().__init__(session, preferences, stage, tracker, motion, parent)
         self.entries: list[Entry] = []
         self._coming: list[Entry] = []
         self._of: tuple[Robot, Path] | None = None  # what the entries are of

@@ -17,7 +17,7 @@ from rvsim.experiment.program import Gripper, Move, Program, Wait, duplicated, i
 from rvsim.files.program_file import load_program, save_program
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.how_steps import wrapped_label
-from rvsim.gui.panels.inspect_page import InspectPage
+from rvsim.gui.panels.path_page import PathPage
 from rvsim.gui.panels.path_program_editor import MoveEditor
 from rvsim.gui.panels.path_program_list import ProgramList, ProgramModel, Row
 from rvsim.gui.panels.path_program_new import new_move
@@ -47,7 +47,7 @@ _ADD = (
 )
 
 
-class ProgramPage(InspectPage):
+class ProgramPage(PathPage):
     """Edits `experiment.program`, keeps a plan of it that is worked out aside, and plays it."""
 
     title = "Program"
@@ -62,8 +62,7 @@ class ProgramPage(InspectPage):
         motion: MotionControl,
         parent: QWidget | None = None,
     ) -> None:
-        super().__init__(session, preferences, stage, parent)
-        self._tracker, self._motion = tracker, motion
+        super().__init__(session, preferences, stage, tracker, motion, parent)
         self.plan: Plan | None = None  # of the program as it stands, None while it is worked out
         self._asked: Experiment | None = None  # the state that the last plan was asked for
         self._running: Plan | None = None

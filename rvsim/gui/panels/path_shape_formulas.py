@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QLineEdit, QSpin
 from rvsim.errors import FormulaError
 from rvsim.experiment import Shape
 from rvsim.experiment.shapes import FormulaShape, FormulaStage
+from rvsim.gui.panels.path_shape_rows import ShapeEditor
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import set_role
@@ -87,15 +88,8 @@ class _StageRows(QWidget):
             self.edited.emit()
 
 
-class FormulaRows(QWidget):
-    """All stages, one below the other. Formulas that do not work are told of, and not taken.
-
-    Signals: as `ShapeRows`.
-    """
-
-    edited = Signal(object, str)
-    refused = Signal(str)
-    finished = Signal()
+class FormulaRows(ShapeEditor):
+    """All stages, one below the other. Formulas that do not work are told of, and not taken."""
 
     def __init__(self, robot: Robot, preferences: Preferences) -> None:
         super().__init__()

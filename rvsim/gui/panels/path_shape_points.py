@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QSpinBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QSpinBox, QVBoxLayout
 
 from rvsim.errors import ExpressionError, PathFileError
 from rvsim.experiment import Shape
 from rvsim.experiment.shapes import PointsShape
 from rvsim.expressions import evaluate_in
+from rvsim.gui.panels.path_shape_rows import ShapeEditor
 from rvsim.gui.panels.tables import RIGHT, Index, plain_table
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, display, format_number, length_kind
@@ -99,15 +100,8 @@ class _PointsModel(QAbstractTableModel):
         return True
 
 
-class PointRows(QWidget):
-    """The table, its buttons, and how the points are joined.
-
-    Signals: as `ShapeRows`.
-    """
-
-    edited = Signal(object, str)
-    refused = Signal(str)
-    finished = Signal()
+class PointRows(ShapeEditor):
+    """The table, its buttons, and how the points are joined."""
 
     def __init__(self, robot: Robot, preferences: Preferences) -> None:
         super().__init__()

@@ -63,8 +63,8 @@ FIELDS: dict[type[Shape], tuple[Field, ...]] = {
 }
 
 
-class ShapeRows(QWidget):
-    """The boxes of one kind of shape.
+class ShapeEditor(QWidget):
+    """What edits one kind of shape.
 
     Signals:
         edited(shape, merge): another one is wanted; edits of the same `merge` in a row are one.
@@ -75,6 +75,10 @@ class ShapeRows(QWidget):
     edited = Signal(object, str)
     refused = Signal(str)
     finished = Signal()
+
+
+class ShapeRows(ShapeEditor):
+    """The boxes of one kind of shape."""
 
     def __init__(self, kind: type[Shape], robot: Robot, preferences: Preferences) -> None:
         super().__init__()

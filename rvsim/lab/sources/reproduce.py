@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import NamedTuple
 
@@ -89,20 +89,22 @@ def reproduce() -> tuple[Reproduction, ...]:
     return tuple(keyed.row for keyed in reproduce_by_key())
 
 
-def reproduce_by_key(tell: Callable[[float], bool] = lambda _share: True) -> tuple[KeyedReproduction, ...]:
-    """The same with keys.
+def reproduce_by_key() -> tuple[KeyedReproduction, ...]:
+    """The same with keys."""
+    *_, rows = reproduction_parts()
+    assert isinstance(rows, tuple)
+    return rows
 
-    Args:
-        tell: is told which share is done; if it says no, the work ends with what there is.
-    """
+
+def reproduction_parts() -> Iterator[float | tuple[KeyedReproduction, ...]]:
+    """The same step by step: the share that is done, 0…1, and last all rows. Whoever stops asking stops the work."""
     makers = _makers()
     rows: list[KeyedReproduction] = []
     for done, make in enumerate(makers, start=1):
         rows += make()
-        if not tell(done / len(makers)):
-            break
+        yield done / len(makers)
     place = {key: number for number, key in enumerate(keys_in_order())}
-    return tuple(sorted(rows, key=lambda keyed: place[keyed.key]))
+    yield tuple(sorted(rows, key=lambda keyed: place[keyed.key]))
 
 
 def _makers() -> list[Callable[[], list[KeyedReproduction]]]:

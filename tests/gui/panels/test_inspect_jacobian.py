@@ -9,35 +9,14 @@ from PySide6.QtWidgets import QTableView
 from rvsim.gui.panels.inspect_jacobian import JacobianPage
 from rvsim.kinematics import jacobian
 from rvsim.kinematics.rates import analytic_jacobian, tool_jacobian
-from rvsim.scene.palette import LIGHT
 from rvsim.scene.primitives import Labels
 
 POSE = np.radians([30.0, 40.0, -70.0, -30.0, 20.0])
 
 
-class StageStub:
-    """Keeps what a page draws."""
-
-    palette = LIGHT
-
-    def __init__(self):
-        self.layers = {}
-
-    def set_layer(self, name, items):
-        self.layers[name] = items
-
-
 @pytest.fixture
-def page_of(session_with, preferences, shown):
-    def make(name, q=None):
-        session = session_with(name)
-        if q is not None:
-            session.move_to(q, "Plot")
-        page = shown(JacobianPage(session, preferences, StageStub()))
-        page.set_seen(True)
-        return page
-
-    return make
+def page_of(inspecting):
+    return lambda name, q=None: inspecting(JacobianPage, name, q)
 
 
 def numbers(page):

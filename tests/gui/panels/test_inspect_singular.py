@@ -7,36 +7,15 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
 from rvsim import load_robot
 from rvsim.gui.panels.inspect_singular import SingularPage
 from rvsim.kinematics import singular_families, singularity
-from rvsim.scene.palette import LIGHT
 
 CLEAR_UR5E = np.radians([20.0, -70.0, 100.0, -50.0, 60.0, 35.0])
 STRETCHED = np.radians([20.0, 40.0, 0.0, 30.0, 20.0])
 ARMS_OF_EACH_KIND = ["rv-m1", "rv-1a", "ur5e", "rrrp", "planar", "scara", "cartesian"]
 
 
-class StageStub:
-    """Keeps what a page draws."""
-
-    palette = LIGHT
-
-    def __init__(self):
-        self.layers = {}
-
-    def set_layer(self, name, items):
-        self.layers[name] = items
-
-
 @pytest.fixture
-def page_of(session_with, preferences, shown):
-    def make(name, q=None):
-        session = session_with(name)
-        if q is not None:
-            session.move_to(q, "Plot")
-        page = shown(SingularPage(session, preferences, StageStub()))
-        page.set_seen(True)
-        return page
-
-    return make
+def page_of(inspecting):
+    return lambda name, q=None: inspecting(SingularPage, name, q)
 
 
 def text(page, name):

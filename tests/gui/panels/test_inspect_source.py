@@ -10,27 +10,13 @@ from rvsim.gui.formula import typeset
 from rvsim.gui.panels.inspect_source import SourcePage
 from rvsim.gui.panels.inspect_source_grid import Grid
 from rvsim.lab.sources import errata, erratum_of
-from rvsim.scene.palette import LIGHT
 from rvsim.scene.primitives import Labels, Polyline, Triads
 
 
-class StageStub:
-    """Keeps what a page draws."""
-
-    palette = LIGHT
-
-    def __init__(self):
-        self.layers = {}
-
-    def set_layer(self, name, items):
-        self.layers[name] = items
-
-
 @pytest.fixture
-def page_of(session_with, preferences, shown):
+def page_of(inspecting):
     def make(name, key=""):
-        page = shown(SourcePage(session_with(name), preferences, StageStub()))
-        page.set_seen(True)
+        page = inspecting(SourcePage, name)
         if key:
             page.choose(key)
         return page

@@ -10,31 +10,15 @@ from rvsim.gui.panels.inspect_velocity_jog import Direction
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.kinematics import forward_kinematics, jacobian
 from rvsim.kinematics.rates import joint_accelerations, tool_acceleration
-from rvsim.scene.palette import LIGHT
 
 POSE = np.radians([30.0, 40.0, -70.0, -30.0, 20.0])
 UR = np.radians([20.0, -70.0, 100.0, -120.0, -80.0, 10.0])
 
 
-class StageStub:
-    """Keeps what a page draws."""
-
-    palette = LIGHT
-
-    def __init__(self):
-        self.layers = {}
-
-    def set_layer(self, name, items):
-        self.layers[name] = items
-
-
 @pytest.fixture
-def page_of(session_with, preferences, shown):
+def page_of(inspecting):
     def make(name, q, mode="tool"):
-        session = session_with(name)
-        session.move_to(q, "Plot")
-        page = shown(VelocityPage(session, preferences, StageStub()))
-        page.set_seen(True)
+        page = inspecting(VelocityPage, name, q)
         page.choose(mode)
         return page
 

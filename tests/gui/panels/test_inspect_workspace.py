@@ -51,7 +51,7 @@ def page_of(session_with, preferences, shown, qtbot):
 
 
 def sampled(page: WorkspacePage, qtbot) -> WorkspacePage:
-    with qtbot.waitSignal(page.surveyor.done, timeout=20_000):
+    with qtbot.waitSignal(page.worker.done, timeout=20_000):
         qtbot.mouseClick(page.sample, Qt.MouseButton.LeftButton)
     return page
 
@@ -93,12 +93,12 @@ def test_a_cancelled_map_never_comes_and_the_old_one_stays(page_of, qtbot) -> No
     old = page.survey
     page.poses.addItem("very many", 10**12)
     select(page.poses, 10**12)
-    with qtbot.waitSignal(page.surveyor.progressed, timeout=20_000):
+    with qtbot.waitSignal(page.worker.part, timeout=20_000):
         page.start()
     assert page.cancel.isEnabled()
     assert not page.sample.isEnabled()
     qtbot.mouseClick(page.cancel, Qt.MouseButton.LeftButton)
-    assert not page.surveyor.busy
+    assert not page.worker.busy
     assert page.survey is old
     select(page.poses, 20_000)
     sampled(page, qtbot)
@@ -192,7 +192,7 @@ def test_nothing_is_left_behind_when_the_page_goes_while_it_works(page_of, qtbot
     page = page_of("ur5e")
     page.poses.addItem("very many", 10**12)
     select(page.poses, 10**12)
-    with qtbot.waitSignal(page.surveyor.progressed, timeout=20_000):
+    with qtbot.waitSignal(page.worker.part, timeout=20_000):
         page.start()
     page.close_worker()
     assert not any(thread.name == "rvsim-worker" for thread in threading.enumerate())
@@ -202,7 +202,7 @@ def test_a_page_that_is_destroyed_while_it_works_takes_its_thread_along(page_of,
     page = page_of("ur5e")
     page.poses.addItem("very many", 10**12)
     select(page.poses, 10**12)
-    with qtbot.waitSignal(page.surveyor.progressed, timeout=20_000):
+    with qtbot.waitSignal(page.worker.part, timeout=20_000):
         page.start()
     shiboken6.delete(page)  # without close_worker
     page_of.made.clear()
