@@ -52,6 +52,7 @@ from rvsim.kinematics.inverse.families import closed_form
 from rvsim.kinematics.inverse.spherical_wrist import SphericalWrist
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
+from rvsim.robot.edits import original_name
 
 _THRESHOLD = 0.01
 _THRESHOLD_TIP = (
@@ -294,10 +295,14 @@ def _families_note(robot: Robot) -> str:
 
 
 def _block_for(robot: Robot, typesetter: Typesetter) -> ArmBlock | None:
-    """The block of this arm, if it has one."""
-    makers: dict[str, Callable[[], ArmBlock]] = {"rv-m1": lambda: SourceBlock(typesetter), "planar": PlanarBlock}
-    if robot.name in makers:
-        return makers[robot.name]()
+    """The block of this arm, or of the arm that it is an edited copy of, if that has one."""
+    makers: dict[tuple[str, int], Callable[[], ArmBlock]] = {
+        ("rv-m1", 5): lambda: SourceBlock(typesetter),  # its barriers are where joints stop
+        ("planar", 2): PlanarBlock,
+    }
+    maker = makers.get((original_name(robot), robot.dof))
+    if maker is not None and np.isfinite(robot.limits).all():
+        return maker()
     if families_known(robot) and isinstance(closed_form(robot), SphericalWrist):
         return WristBlock(typesetter)
     return None

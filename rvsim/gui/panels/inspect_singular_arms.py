@@ -18,6 +18,7 @@ from rvsim.lab.singular_sources import MINORS, Barrier, barriers, minors, positi
 from rvsim.lab.worked import Equation
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
+from rvsim.robot.edits import original_name
 
 MINOR_FORMULAS = tuple(f"{name} = {formula}" for name, _, formula in MINORS)
 SPLIT_FORMULAS = (
@@ -152,7 +153,7 @@ class WristBlock(ArmBlock):
         """The factors and their product."""
         split = wrist_split(robot, q)
         self.values.show_values([split.arm, split.wrist, split.arm * split.wrist, split.whole], "")
-        self.factors.show_equations(RV_1A_FACTORS if robot.name == "rv-1a" else ())
+        self.factors.show_equations(RV_1A_FACTORS if original_name(robot) == "rv-1a" else ())
         self.factors.setVisible(robot.name == "rv-1a")
 
 

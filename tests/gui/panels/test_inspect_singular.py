@@ -6,7 +6,9 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
 
 from rvsim import load_robot
 from rvsim.gui.panels.inspect_singular import SingularPage
+from rvsim.gui.panels.user_robot import own_copy
 from rvsim.kinematics import singular_families, singularity
+from rvsim.robot.edits import with_dh_value
 
 CLEAR_UR5E = np.radians([20.0, -70.0, 100.0, -50.0, 60.0, 35.0])
 STRETCHED = np.radians([20.0, 40.0, 0.0, 30.0, 20.0])
@@ -155,3 +157,14 @@ def test_another_arm_brings_its_own_families_and_block(page_of):
 def test_nothing_needs_more_than_the_panels_width(page_of, name):
     page = page_of(name)
     assert page.light.parentWidget().layout().minimumSize().width() <= 320
+
+
+@pytest.mark.parametrize("name", ["rv-m1", "rv-1a", "planar"])
+def test_an_edited_copy_keeps_the_block_of_its_arm(page_of, name):
+    page = page_of(name)
+    kind = type(page.block)
+    copy = with_dh_value(own_copy(page._session.robot), 1, "a", 0.9 * page._session.robot.joints[1].a)
+    page._session.use_robot(copy)
+    assert type(page.block) is kind
+    page._session.use_robot(with_dh_value(copy, 0, "lower", -np.inf))  # where there is no stop there is no barrier
+    assert page.light.word.text()
