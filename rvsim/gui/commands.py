@@ -15,10 +15,7 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox
 from rvsim.errors import RvsimError
 from rvsim.files.atomic import write_atomically
 from rvsim.gui.actions import shortcut_table
-from rvsim.gui.animation_dialog import AnimationDialog
 from rvsim.gui.diagnostics import diagnostics
-from rvsim.gui.exports import ask_motion_csv, ask_script
-from rvsim.gui.import_dialog import ask_import
 from rvsim.gui.panels.path_program import ProgramPage
 from rvsim.gui.panels.user_robot import ask_what_to_open, ask_where_to_save, opened, saved
 from rvsim.gui.picture import save_image
@@ -30,6 +27,7 @@ from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
+    from rvsim.lab.motion_table import TableUnits
 
 
 class Switch(NamedTuple):
@@ -104,11 +102,11 @@ class Commands(QObject):
             "save_robot": self.save_robot,
             "save_picture": self.save_picture,
             "save_csv": self.save_csv,
-            "save_motion": lambda: ask_motion_csv(window, self._session, motion),
-            "save_motion_si": lambda: ask_motion_csv(window, self._session, motion, "si"),
-            "save_script": lambda: ask_script(window, self._session, motion),
+            "save_motion": self.save_motion,
+            "save_motion_si": lambda: self.save_motion("si"),
+            "save_script": self.save_script,
             "save_animation": self.save_animation,
-            "import_table": lambda: ask_import(window, self._session, motion, window.tracker),
+            "import_table": self.import_table,
             "open_program": lambda: self._program().ask_open(),
             "save_program": lambda: self._program().ask_save(),
             "run_program": lambda: self._program().run(),
@@ -185,8 +183,30 @@ class Commands(QObject):
         assert page is not None
         return page
 
+    # What is rarely asked for is imported when it is: every start would pay for it.
+
+    def save_motion(self, units: TableUnits = "screen") -> None:
+        """Ask for a place and write the motion there as CSV."""
+        from rvsim.gui.exports import ask_motion_csv
+
+        ask_motion_csv(self._window, self._session, self._window.motion, units)
+
+    def save_script(self) -> None:
+        """Ask for a place and write the script there that works the motion out anew."""
+        from rvsim.gui.exports import ask_script
+
+        ask_script(self._window, self._session, self._window.motion)
+
+    def import_table(self) -> None:
+        """Ask for a file of joints or points, and how its columns are meant."""
+        from rvsim.gui.import_dialog import ask_import
+
+        ask_import(self._window, self._session, self._window.motion, self._window.tracker)
+
     def save_animation(self) -> None:
         """Ask how the motion is to be written as an animated picture."""
+        from rvsim.gui.animation_dialog import AnimationDialog
+
         window = self._window
         dialog = AnimationDialog(window, self._session, window.motion, window.stage, self._preferences)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
