@@ -57,6 +57,11 @@ class CrashReporter(QObject):
         self.parent_widget: Callable[[], QWidget | None] = lambda: None
         self._caught.connect(self._show, Qt.ConnectionType.QueuedConnection)
 
+    @property
+    def dialog(self) -> QMessageBox | None:
+        """The dialog that tells of it, while it is open."""
+        return self._dialog
+
     def install(self) -> None:
         """Take over from now on."""
         sys.excepthook = self.report

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from PySide6.QtWidgets import QApplication, QMessageBox
+from PySide6.QtWidgets import QMessageBox
 from pytestqt.qtbot import QtBot
 
 from rvsim.errors import ExpressionError
@@ -33,27 +33,21 @@ def raised(error: Exception) -> Exception:
         return caught
 
 
-def dialog() -> QMessageBox | None:
-    boxes = [box for box in QApplication.topLevelWidgets() if isinstance(box, QMessageBox) and box.isVisible()]
-    return boxes[0] if boxes else None
-
-
 def report(reporter: CrashReporter, error: Exception) -> None:
     caught = raised(error)
     reporter.report(type(caught), caught, caught.__traceback__)
 
 
-def shown(qtbot: QtBot) -> QMessageBox:
-    qtbot.waitUntil(lambda: dialog() is not None)
-    box = dialog()
-    assert box is not None
-    return box
+def shown(qtbot: QtBot, reporter: CrashReporter) -> QMessageBox:
+    qtbot.waitUntil(lambda: reporter.dialog is not None)
+    assert reporter.dialog is not None
+    return reporter.dialog
 
 
 def test_the_dialog_says_it_plainly_and_keeps_the_details(qtbot: QtBot, log: Path) -> None:
     reporter = CrashReporter(log)
     report(reporter, ZeroDivisionError("x"))
-    box = shown(qtbot)
+    box = shown(qtbot, reporter)
     assert "Traceback" not in box.text()
     assert "you can go on" in box.text()
     assert "ZeroDivisionError" in box.detailedText()
@@ -64,7 +58,7 @@ def test_the_dialog_says_it_plainly_and_keeps_the_details(qtbot: QtBot, log: Pat
 def test_an_error_of_ours_speaks_for_itself(qtbot: QtBot, log: Path) -> None:
     reporter = CrashReporter(log)
     report(reporter, ExpressionError("abc", "it cannot be read"))
-    box = shown(qtbot)
+    box = shown(qtbot, reporter)
     assert "“abc” is no number" in box.text()
     box.close()
 
@@ -73,7 +67,7 @@ def test_a_flood_of_errors_is_one_dialog(qtbot: QtBot, log: Path) -> None:
     reporter = CrashReporter(log)
     for _ in range(20):
         report(reporter, ValueError("again"))
-    box = shown(qtbot)
+    box = shown(qtbot, reporter)
     qtbot.waitUntil(lambda: "20 times" in box.informativeText())
     box.close()
 
@@ -83,7 +77,7 @@ def test_an_error_in_a_thread_reaches_the_window(qtbot: QtBot, log: Path) -> Non
     thread = threading.Thread(target=report, args=(reporter, RuntimeError("worker")))
     thread.start()
     thread.join()
-    box = shown(qtbot)
+    box = shown(qtbot, reporter)
     assert "RuntimeError" in box.detailedText()
     box.close()
 

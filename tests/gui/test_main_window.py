@@ -49,8 +49,8 @@ def test_every_command_can_be_triggered(window: MainWindow) -> None:
         window.tracker.track_line()
         window.motion.pause()
         window.actions_by_name[name].trigger()
-        for box in QApplication.topLevelWidgets():
-            if isinstance(box, TextDialog):
+        for box in window.findChildren(TextDialog):
+            if box.isVisible():
                 assert box.browser.toPlainText(), name
                 assert box.height() <= window.height()
                 box.close()
@@ -129,7 +129,7 @@ def test_a_robot_file_is_opened_and_a_bad_one_explained(window: MainWindow, tmp_
     assert window.joints.robots.currentText() == "Mine, second edition"
     bad.write_text(good.read_text(encoding="utf-8").replace("[[joint]]", "[[jiont]]"), encoding="utf-8")
     window.commands.open_robot_file(bad)
-    box = next(box for box in QApplication.topLevelWidgets() if isinstance(box, QMessageBox))
+    box = window.findChild(QMessageBox)
     assert "bad.toml" in box.informativeText()
     assert "jiont" in box.informativeText()
     assert window.session.robot.name == "mine"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, Qt, QTimer, Signal
+from PySide6.QtCore import QPointF, QRect, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -53,9 +53,10 @@ class TimePlot(QWidget):
         self._time = 0.0
         self._picture = QPixmap()
         self._marks: tuple[float, ...] = ()
-        self.plot = pg.PlotWidget(background=None)
-        self.plot.setAttribute(Qt.WidgetAttribute.WA_DontShowOnScreen)  # it is a brush: what it paints is kept
-        self.plot.show()
+        # It is a brush: what it paints is kept. A child, so that it goes with this widget and never in another thread,
+        # where the garbage of one without a parent could be collected.
+        self.plot = pg.PlotWidget(self, background=None)
+        self.plot.hide()
         self.plot.setMouseEnabled(x=False, y=False)
         self.plot.hideButtons()
         self.plot.getAxis("left").setWidth(_AXIS_WIDTH)
@@ -97,6 +98,7 @@ class TimePlot(QWidget):
             style = Qt.PenStyle.DashLine if line.dashed else Qt.PenStyle.SolidLine
             pen = pg.mkPen(_visible(line.color, theme), width=1.0 if line.dashed else 1.8, style=style)
             self.plot.plot(self._times, line.values, pen=pen, antialias=True, connect="finite")
+        self.plot.grab(QRect(0, 0, 1, 1))  # which tells it, hidden as it is, of its size
         self.plot.getPlotItem().layout.activate()
         self._picture = self.plot.grab()
         self.update()
