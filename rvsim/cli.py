@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import codecs
-import json
 import os
 import re
 import sys
@@ -235,9 +234,9 @@ def _speak_any_encoding() -> None:
 
 
 def _print(options: argparse.Namespace, record: Any, text: str) -> None:
-    from rvsim.lab.tables import without_nan
+    from rvsim.lab.tables import json_text
 
-    print(json.dumps(without_nan(record), indent=2, allow_nan=False, ensure_ascii=False) if options.json else text)
+    print(json_text(record) if options.json else text)
 
 
 def _row(values: FloatArray, decimals: int = 1) -> str:

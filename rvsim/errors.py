@@ -7,6 +7,7 @@
     ├── RobotFileError         a robot file that cannot be read, with its path, table and key
     ├── UnknownNameError       a name outside a closed list (a path, a tool, an orientation)
     ├── LetterError            a text that the pen cannot write
+    ├── NotFiniteError         a number that is none (NaN) or infinite, with its place in the array
     ├── TooManyPointsError     a path of so many points that nobody would wait for it
     ├── PathFileError          a file of points that cannot be read, with its row and column
     ├── ProgramFileError       a program that cannot be read, with its line and key
@@ -98,6 +99,15 @@ class LetterError(RvsimError, LookupError):
         super().__init__(
             f"The pen cannot write “{letter}”. {known}" if letter else "Type a letter or more to be written."
         )
+
+
+class NotFiniteError(RvsimError, ValueError):
+    """A number in an array that is none (NaN) or infinite; `index` is its place, counted from 0."""
+
+    def __init__(self, name: str, index: tuple[int, ...], found: float) -> None:
+        self.name, self.index, self.found = name, index, found
+        place = ", ".join(map(str, index))
+        super().__init__(f"{name}[{place}] is {found}, but must be a finite number (indices count from 0).")
 
 
 class TooManyPointsError(RvsimError, ValueError):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import math
 from collections.abc import Iterable
 from typing import Any
@@ -118,6 +119,28 @@ def without_nan(value: Any) -> Any:
     if isinstance(value, (np.ndarray, np.generic)):
         return without_nan(value.tolist())
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def json_text(record: Any) -> str:
+    """The record as JSON: a line an entry, and a line an item of a list in it: a thousand missed points stay legible."""
+    return _lines(without_nan(record), 2)
+
+
+def _lines(value: Any, levels: int, indent: str = "") -> str:
+    """Two levels broken into lines, unless there is only a list of numbers or names; what is inside is compact."""
+    if not levels or not _is_nested(value):
+        return json.dumps(value, allow_nan=False, ensure_ascii=False)
+    inside, is_dict = f"{indent}  ", isinstance(value, dict)
+    keys = [f"{json.dumps(key, ensure_ascii=False)}: " for key in value] if is_dict else [""] * len(value)
+    items = value.values() if is_dict else value
+    rows = [f"{inside}{key}{_lines(item, levels - 1, inside)}" for key, item in zip(keys, items, strict=True)]
+    first, last = "{}" if is_dict else "[]"
+    return "\n".join((first, ",\n".join(rows), f"{indent}{last}"))
+
+
+def _is_nested(value: Any) -> bool:
+    """A record, or a list that holds other than numbers and names."""
+    return isinstance(value, dict) or (isinstance(value, list) and any(isinstance(i, (dict, list)) for i in value))
 
 
 def _branch_record(robot: Robot, branch: Branch) -> Record:

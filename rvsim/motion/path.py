@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rvsim.errors import ShapeError
-from rvsim.robot.arrays import FloatArray, frozen_array
+from rvsim.robot.arrays import FloatArray, check_finite, frozen_array
 
 # The tool's z axis points straight down, its x axis along the base's x axis (source 000 tracks with this rotation).
 TOOL_DOWN = frozen_array("tool down", np.diag([1.0, -1.0, -1.0]), (3, 3))
@@ -34,6 +34,7 @@ class Path:
 
     Raises:
         ShapeError: points and rotations do not fit together.
+        NotFiniteError: a number among them is NaN or infinite.
     """
 
     name: str
@@ -48,9 +49,11 @@ class Path:
         object.__setattr__(self, "points", frozen_array("path points", self.points, (-1, 3)))
         if not self.samples:
             raise ShapeError("path points", "(at least 1, 3)", self.points.shape)
+        check_finite("path points", self.points)
         if self.rotations is not None:
             rotations = frozen_array("path rotations", self.rotations, (self.samples, 3, 3))
             object.__setattr__(self, "rotations", rotations)
+            check_finite("path rotations", rotations)
         if self.pen_up is not None and np.shape(self.pen_up) != (self.samples,):
             raise ShapeError("path pen_up", f"({self.samples},)", np.shape(self.pen_up))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rvsim.errors import ShapeError
+from rvsim.errors import NotFiniteError, ShapeError
 
 FloatArray = NDArray[np.float64]
 
@@ -22,3 +22,15 @@ def frozen_array(name: str, values: ArrayLike, shape: tuple[int, ...]) -> FloatA
         raise ShapeError(name, str(shape).replace("-1", "any"), array.shape)
     array.setflags(write=False)
     return array
+
+
+def check_finite(name: str, array: FloatArray) -> None:
+    """Refuse NaN and infinity.
+
+    Raises:
+        NotFiniteError: with the place of the first one.
+    """
+    finite = np.isfinite(array)
+    if not finite.all():
+        index = tuple(int(i) for i in np.argwhere(~finite)[0])
+        raise NotFiniteError(name, index, float(array[index]))

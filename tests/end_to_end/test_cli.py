@@ -266,3 +266,11 @@ def test_headless_work_loads_neither_qt_nor_scipy() -> None:
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
     assert math.isclose(json.loads(done.stdout.rsplit("\n[", 1)[0])["reached"], 51)
+
+
+def test_a_thousand_missed_points_are_a_line_each(capsys: Capture) -> None:
+    arguments = ("track", "rv-m1", "--path", "letter-raw", "--samples", "1000", "--json")
+    text = run(capsys, *arguments, status=FAILED)
+    record = json.loads(text)
+    assert len(record["unreached"]) == 1000
+    assert len(text.splitlines()) == 1000 + 2 + len(record) + 1

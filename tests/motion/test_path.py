@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.interpolate import CubicSpline
 
-from rvsim.errors import ShapeError
+from rvsim.errors import NotFiniteError, ShapeError
 from rvsim.motion import TOOL_DOWN, Path, line_path, spline_points, through_points
 from rvsim.motion.path import radial_rotations
 
@@ -77,3 +77,17 @@ def test_the_spline_is_the_not_a_knot_spline_between_and_beyond_uneven_knots(cou
 def test_a_spline_needs_four_knots() -> None:
     with pytest.raises(ShapeError, match="at least 4"):
         spline_points([0, 1, 2], np.zeros((3, 1)), [0.5])
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_a_place_that_is_no_number_is_refused_with_its_index(bad: float) -> None:
+    points = np.zeros((5, 3))
+    points[3, 1] = bad
+    with pytest.raises(NotFiniteError, match=rf"path points\[3, 1\] is {bad}, but must be a finite number"):
+        through_points(points)
+    with pytest.raises(NotFiniteError, match=r"path points\[3, 1\]"):
+        line_path([0, 0, 0], [1, 1, 1], 5).moved(points)
+    turned = np.tile(np.eye(3), (5, 1, 1))
+    turned[2, 0, 1] = bad
+    with pytest.raises(NotFiniteError, match=r"path rotations\[2, 0, 1\]"):
+        through_points(np.zeros((5, 3)), turned)
