@@ -10,9 +10,10 @@ import numpy as np
 from rvsim.errors import RvsimError, did_you_mean
 from rvsim.files.kinds import Choice, Flag, HexColor, Items, Key, Number, Numbers, Table, Text
 from rvsim.files.place import LENGTH_UNITS, Place, shown
-from rvsim.robot import BoxShape, CapsuleShape, Datum, Gripper, Joint, LinkMass, Robot, Shape, Tool
+from rvsim.robot import BoxShape, CapsuleShape, Datum, Gripper, GripperServo, Joint, LinkMass, Robot, Servo, Shape, Tool
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.robot import NO_TOOL
+from rvsim.robot.servo import CHANNELS, LONGEST_US, SHORTEST_US
 from rvsim.spatial import rotation_from_rpy, rpy_from_rotation, transform
 
 # A hundred turns; a kilometre.
@@ -148,9 +149,7 @@ LOOK = Table(
 
 
 def _whole_frame(values: dict[str, Any], place: Place) -> dict[str, Any]:
-    if values["frame"] != int(values["frame"]):
-        place.at("key 'frame'").refuse(shown(values["frame"]), "a whole number")
-    return values | {"frame": int(values["frame"])}
+    return values | {"frame": _whole(values["frame"], "frame", place)}
 
 
 # --- masses --------------------------------------------------------------------------------------------------------
@@ -180,6 +179,52 @@ def _tuple(values: FloatArray) -> tuple[float, ...]:
     return tuple(values.tolist())
 
 
+# --- servos --------------------------------------------------------------------------------------------------------
+
+_DEGREE = math.radians(1.0)
+_CHANNEL = Key("channel", Number("plain", 0, CHANNELS - 1), comment="of the controller, 0 to 31")
+_PULSE = Number("plain", SHORTEST_US, LONGEST_US)
+_ORIGIN = (Key("assumed", Flag(), False), Key("source", Text(longest=500), ""))
+SERVO = Table(
+    keys=(
+        _CHANNEL,
+        Key("sign", Number("plain", -1, 1), comment="1 where a longer pulse means a larger q, -1 where a smaller one"),
+        Key("zero_us", Number("plain", -20_000.0, 20_000.0), comment="the pulse at q = 0 [µs]"),
+        Key("us_per_degree", Number("plain", 0.1, 1000.0), comment="[µs/degree]"),
+        Key("min_us", _PULSE, SHORTEST_US, "the shortest pulse the servo may get [µs]"),
+        Key("max_us", _PULSE, LONGEST_US, "the longest [µs]"),
+        *_ORIGIN,
+    ),
+    build=lambda values, place: _build_servo(values, place),
+    parts=lambda servo: vars(servo) | {"us_per_degree": servo.us_per_rad * _DEGREE},
+)
+GRIPPER_SERVO = Table(
+    keys=(_CHANNEL, Key("open_us", _PULSE, comment="[µs]"), Key("closed_us", _PULSE, comment="[µs]"), *_ORIGIN),
+    build=lambda values, place: _checked(
+        GripperServo, values | {"channel": _whole(values["channel"], "channel", place)}, place
+    ),
+    parts=vars,
+)
+
+
+def _build_servo(values: dict[str, Any], place: Place) -> Any:
+    values = values | {name: _whole(values[name], name, place) for name in ("channel", "sign")}
+    return _checked(Servo, values | {"us_per_rad": values.pop("us_per_degree") / _DEGREE}, place)
+
+
+def _whole(value: float, key: str, place: Place) -> int:
+    if value != int(value):
+        place.at(f"key {key!r}").refuse(shown(value), "a whole number")
+    return int(value)
+
+
+def _checked(kind: type[Any], values: dict[str, Any], place: Place) -> Any:
+    try:
+        return kind(**values)
+    except RvsimError as problem:
+        place.refuse(str(problem), "values that make a servo")
+
+
 # --- the whole arm -------------------------------------------------------------------------------------------------
 
 ROBOT = Table(
@@ -198,6 +243,8 @@ ROBOT = Table(
         Key("gripper", GRIPPER, None, "its outline in the stick figure"),
         Key("look", LOOK, (), "the solid look: capsules and boxes fixed to the links"),
         Key("mass", Items("mass", MASS, 0, _MOST_JOINTS), (), "one [[mass]] table a link, or none at all"),
+        Key("servo", Items("servo", SERVO, 0, _MOST_JOINTS), (), "one [[servo]] table a joint, for an arm of servos"),
+        Key("gripper_servo", GRIPPER_SERVO, None, "the gripper's servo"),
     ),
     build=lambda values, place: _build_robot(values, place),
     parts=lambda robot: {
@@ -208,12 +255,21 @@ ROBOT = Table(
         "tool": robot.tools,
         "look": robot.shapes,
         "mass": robot.masses,
+        "servo": robot.servos,
+        "gripper_servo": robot.gripper_servo,
     },
     units=lambda table, units: units.for_robot(table.get("length_unit", "millimetre")),
 )
 
 
-_FIELDS = {"joint": "joints", "tool": "tools", "look": "shapes", "mass": "masses", "base": "T_base_0"}
+_FIELDS = {
+    "joint": "joints",
+    "tool": "tools",
+    "look": "shapes",
+    "mass": "masses",
+    "base": "T_base_0",
+    "servo": "servos",
+}
 
 
 def _build_robot(values: dict[str, Any], place: Place) -> Robot:
@@ -223,9 +279,9 @@ def _build_robot(values: dict[str, Any], place: Place) -> Robot:
     _check_frames(values["look"], len(values["joint"]), place)
     _check_masses(len(values["mass"]), len(values["joint"]), place)
     _check_size(values["joint"], place)
-    renamed = {"joint": "joints", "tool": "tools", "look": "shapes", "mass": "masses", "base": "T_base_0"}
+    _check_servos(len(values["servo"]), len(values["joint"]), place)
     arguments = {
-        renamed.get(name, name): value for name, value in values.items() if name != "base" or value is not None
+        _FIELDS.get(name, name): value for name, value in values.items() if name != "base" or value is not None
     }
     try:
         return Robot(**arguments)
@@ -259,6 +315,11 @@ def _check_frames(shapes: tuple[Shape, ...], dof: int, place: Place) -> None:
 def _check_masses(masses: int, dof: int, place: Place) -> None:
     if masses not in (0, dof):
         place.at("mass").refuse(f"{masses} of them", f"none, or one for each of the {dof} links")
+
+
+def _check_servos(servos: int, joints: int, place: Place) -> None:
+    if servos not in (0, joints):
+        place.at("servo").refuse(f"{servos} of them", f"none, or one for each of the {joints} joints")
 
 
 def _check_size(joints: tuple[Joint, ...], place: Place) -> None:

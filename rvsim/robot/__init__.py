@@ -1,6 +1,7 @@
 """What an arm is: DH rows, joints, limits, tools, shapes, masses. Values only; no disk, no units, no algorithms."""
 
 from rvsim.robot.robot import Convention, Datum, Gripper, Joint, JointType, LinkMass, Robot, Tool
+from rvsim.robot.servo import GripperServo, Servo
 from rvsim.robot.shape import BoxShape, CapsuleShape, Shape
 
 __all__ = [
@@ -9,10 +10,12 @@ __all__ = [
     "Convention",
     "Datum",
     "Gripper",
+    "GripperServo",
     "Joint",
     "JointType",
     "LinkMass",
     "Robot",
+    "Servo",
     "Shape",
     "Tool",
 ]

@@ -11,6 +11,7 @@ import numpy as np
 
 from rvsim.errors import RobotDefinitionError, UnknownNameError
 from rvsim.robot.arrays import FloatArray, frozen_array
+from rvsim.robot.servo import GripperServo, Servo
 from rvsim.robot.shape import Shape
 
 Convention = Literal["standard", "modified"]
@@ -119,6 +120,7 @@ class Robot:
         length_unit: "millimetre", or "unit" for an arm whose source gives lengths without a unit (inside: metres).
         source, notes: where the numbers come from; what a student should know.
         family: the arm's kind in the field's words, for instance "5R, wrist without yaw".
+        servos: one a joint for an arm of hobby servos, or (); gripper_servo: the gripper's, or None.
 
     Raises:
         RobotDefinitionError: the values make no arm.
@@ -138,6 +140,8 @@ class Robot:
     source: str = ""
     notes: str = ""
     family: str = ""
+    servos: tuple[Servo, ...] = ()
+    gripper_servo: GripperServo | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "T_base_0", frozen_array("T_base_0", self.T_base_0, (4, 4)))
@@ -147,6 +151,9 @@ class Robot:
             _check_joint(self.name, joint)
         if self.masses and len(self.masses) != self.dof:
             raise RobotDefinitionError(self.name, f"{len(self.masses)} link masses for {self.dof} links.")
+        if self.servos and len(self.servos) != self.dof:
+            raise RobotDefinitionError(self.name, f"{len(self.servos)} servos for {self.dof} joints.")
+        _check_channels(self.name, self.servos, self.gripper_servo)
         if not self.tool_name:
             object.__setattr__(self, "tool_name", self.tools[0].name)
         _ = self.tool  # raises at once if there is no such tool
@@ -234,3 +241,10 @@ def _check_joint(robot: str, joint: Joint) -> None:
         raise RobotDefinitionError(robot, f"{where}: its lower limit must lie below its upper limit.")
     if not joint.lower <= joint.home <= joint.upper:
         raise RobotDefinitionError(robot, f"{where}: its home must lie within its limits.")
+
+
+def _check_channels(robot: str, servos: tuple[Servo, ...], gripper: GripperServo | None) -> None:
+    channels = [servo.channel for servo in servos] + ([gripper.channel] if gripper else [])
+    twice = {channel for channel in channels if channels.count(channel) > 1}
+    if twice:
+        raise RobotDefinitionError(robot, f"two servos on channel {min(twice)}; each needs a channel of its own.")

@@ -1,0 +1,1 @@
+"""The driver: one object that talks to an arm on a wire, whichever language it speaks."""
