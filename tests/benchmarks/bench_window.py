@@ -1,7 +1,8 @@
 """How fast the window is: value change to painted frame, first window, memory over many frames.
 
 Each figure comes from a process of its own, on the screen that there is (`dev.py bench` lends a virtual one).
-Wall-clock times: what a person waits for. Figures of one machine; read them beside its name.
+Wall-clock times: what a person waits for. Figures of one machine; read them beside its name. Names of measurements
+as arguments ("scrub", "drag" …) leave the others out.
 """
 
 from __future__ import annotations
@@ -20,11 +21,13 @@ _READY = {
     "ur5e": (20.0, -70.0, 100.0, -50.0, 60.0, 35.0),
     "al5b": (20.0, 100.0, -80.0, -20.0, 15.0),
 }
+_MODES = ("frame", "drag", "beyond", "inspector", "scrub", "startup", "memory")
+_SIX_PLOTS = ("q", "qd", "qdd", "tool", "sigma", "deviation")
 _OTHERS = {"rv-m1": "RV-M1", "rv-1a": "RV-1A", "al5b": "AL5B"}
 
 
-def main() -> int:
-    """Run every measurement and print a row each."""
+def main(chosen: list[str]) -> int:
+    """Run every measurement, or those chosen, and print a row each."""
     rows = [
         ("value change to painted frame, own renderer, 1280×720, p95", "≤ 16 ms", ("frame", "auto", "1280", "720")),
         ("the same with OpenGL forced (software here), 800×600 view, p95", "≤ 40 ms", ("frame", "gl", "800", "600")),
@@ -32,10 +35,13 @@ def main() -> int:
         *((f"drag step: the same of the {title}, p95", "≤ 16 ms", ("drag", name)) for name, title in _OTHERS.items()),
         ("drag step beyond the reach, the arm creeping, UR5e, p95", "≤ 16 ms", ("beyond", "ur5e")),
         ("inspector: numbers, both ellipsoids and frame, UR5e, p95", "≤ 16 ms", ("inspector", "ur5e")),
+        ("scrubbing the time slider, six plots open, UR5e, 1280×800, p95", "≤ 16 ms", ("scrub", "ur5e")),
         ("first window painted, warm, median of 5", "≤ 1.0 s", ("startup",)),
         ("resident memory after 10,000 frames", "≤ 280 MB, flat", ("memory",)),
     ]  # fmt: skip
     for title, target, mode in rows:
+        if chosen and mode[0] not in chosen:
+            continue
         print(f"{title:62s} {target:16s} {_measured(mode)}", flush=True)
     return 0
 
@@ -69,11 +75,11 @@ def child(arguments: list[str]) -> None:
 
     app = make_application(["rvsim"])
     renderer = arguments[1] if mode == "frame" else "auto"
-    robot = arguments[1] if mode in ("drag", "beyond", "inspector") else "rv-m1"
+    robot = arguments[1] if mode in ("drag", "beyond", "inspector", "scrub") else "rv-m1"
     window = build_window(Preferences(), robot=robot, renderer=renderer)
     painted: list[float] = []
     window.scene_view.painted.connect(lambda _: painted.append(time.perf_counter()))
-    window.resize(1280, 720)
+    window.resize(1280, 800 if mode == "scrub" else 720)
     if mode == "frame" and renderer == "gl":
         window.scene_view.setFixedSize(int(arguments[2]), int(arguments[3]))
     window.show()
@@ -84,6 +90,8 @@ def child(arguments: list[str]) -> None:
         print(json.dumps(_drag_times(app, window, painted, beyond=mode == "beyond")))
     elif mode == "inspector":
         print(json.dumps(_inspector_times(app, window, painted)))
+    elif mode == "scrub":
+        print(json.dumps(_scrub_times(app, window, painted)))
     elif mode == "frame":
         print(json.dumps(_frame_times(app, window, painted)))
     else:
@@ -172,6 +180,33 @@ def _drag_times(app: object, window: object, painted: list[float], beyond: bool)
     return {**_spread(times), "renderer": view.renderer.description, "missed": missed}
 
 
+def _scrub_times(app: object, window: object, painted: list[float]) -> dict[str, object]:
+    """Six plots of a tracked ellipse; a hand drags the time slider. Until scene, panels and plots are painted."""
+    from dataclasses import replace
+
+    from rvsim.experiment import TrajectoryTask
+
+    plots, session = window.plots, window.session  # type: ignore[attr-defined]
+    window.preferences.set("show_plots", True)  # type: ignore[attr-defined]
+    for name, made in plots._buttons.items():
+        made.setChecked(name in _SIX_PLOTS)
+    session.edit("path", replace(session.experiment, trajectory=TrajectoryTask("ellipse-moved")))
+    window.tracker.track_trajectory()  # type: ignore[attr-defined]
+    _until(app, lambda: session.tracking is not None)
+    window.motion.pause()  # type: ignore[attr-defined]
+    _until(app, lambda: len(plots.plots) == len(_SIX_PLOTS) and not plots._later.isActive())
+    times = []
+    for number in range(FRAMES):
+        app.processEvents()  # type: ignore[attr-defined]
+        painted.clear()
+        start = time.perf_counter()
+        window.player_bar.slider.setValue(100 + (37 * number) % 9800)  # type: ignore[attr-defined]
+        _until(app, lambda: bool(painted))
+        app.processEvents()  # type: ignore[attr-defined]
+        times.append((time.perf_counter() - start) * 1e3)
+    return {**_spread(times), "renderer": window.scene_view.renderer.description}  # type: ignore[attr-defined]
+
+
 def _spread(times: list[float]) -> dict[str, float]:
     settled = sorted(times[20:])
     return {"median": settled[len(settled) // 2], "p95": settled[int(0.95 * len(settled))]}
@@ -194,7 +229,7 @@ def _resident_mb() -> float:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 2 and sys.argv[1] in ("frame", "drag", "beyond", "inspector", "startup", "memory"):
+    if len(sys.argv) > 2 and sys.argv[1] in _MODES:
         child(sys.argv[1:])
     else:
-        sys.exit(main())
+        sys.exit(main(sys.argv[1:]))
