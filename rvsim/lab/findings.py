@@ -118,19 +118,22 @@ _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 def _table(report: Report, finding: Finding, units: Units) -> str:
     link = link_name(report.robot, finding.links[0])
     if finding.value < 0.0:
-        return f"{_capital(link)} is {_length(report.robot, -finding.value, units)} below it {where_words(finding)}."
-    return f"At least {_length(report.robot, finding.value, units)} above it: {link}, {where_words(finding)}."
+        return (
+            f"{_capital(link)} is {length_words(report.robot, -finding.value, units)} below it {where_words(finding)}."
+        )
+    return f"At least {length_words(report.robot, finding.value, units)} above it: {link}, {where_words(finding)}."
 
 
 def _own(report: Report, finding: Finding, units: Units) -> str:
     one, other = (link_name(report.robot, link) for link in finding.links)
     if finding.value < 0.0:
         return f"{_capital(one)} meets {other} {where_words(finding)}."
-    distance = _length(report.robot, finding.value, units)
+    distance = length_words(report.robot, finding.value, units)
     return f"At least {distance} between {one} and {other}, {where_words(finding)}."
 
 
-def _length(robot: Robot, length: float, units: Units) -> str:
+def length_words(robot: Robot, length: float, units: Units) -> str:
+    """A length [m] for a sentence, not finer than it helps."""
     value, unit = length_number(robot, length, units)
     return f"{value:.0f} {unit}" if unit == "mm" and value >= 10.0 else f"{value:.3g} {unit}"
 

@@ -1,0 +1,58 @@
+"""What stands against letting a real arm do a motion: limits, speeds, the table and the arm itself, in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from rvsim.kinematics.clearance import clearance
+from rvsim.lab.findings import length_words
+from rvsim.lab.sentences import Units, joint_amount
+from rvsim.playback.player import Playable
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+_MOMENTS = 401
+_ROUNDING = 1e-9
+_FULL = 1.02  # of a joint's speed, which is measured between moments
+
+
+def objections(robot: Robot, motion: Playable, units: Units, *, table: float | None = 0.0) -> tuple[str, ...]:
+    """Sentences, none if the motion may run; `table` is its height [m], None where there is none."""
+    times = np.linspace(0.0, motion.duration, _MOMENTS)
+    q = np.asarray(motion.q(times), dtype=np.float64).reshape(_MOMENTS, robot.dof)
+    return (*_limits(robot, times, q, units), *_speeds(robot, times, q), *_clearances(robot, times, q, table, units))
+
+
+def _limits(robot: Robot, times: FloatArray, q: FloatArray, units: Units) -> Iterator[str]:
+    for index, (lower, upper) in enumerate(robot.limits):
+        beyond = np.maximum(lower - q[:, index], q[:, index] - upper)
+        worst = int(np.argmax(beyond))
+        if beyond[worst] > _ROUNDING:
+            value = float(q[worst, index])
+            limit = float(lower if value < lower else upper)
+            name = robot.joint_names[index]
+            needs, ends = (joint_amount(robot, name, angle, units) for angle in (value, limit))
+            yield f"At {times[worst]:.2f} s {name} would be at {needs}; arm and servos stop at {ends}."
+
+
+def _speeds(robot: Robot, times: FloatArray, q: FloatArray) -> Iterator[str]:
+    rates = np.abs(np.diff(q, axis=0)) / max(float(times[1] - times[0]), 1e-9)
+    for index, joint in enumerate(robot.joints):
+        if joint.max_speed is None:
+            continue
+        share = float(rates[:, index].max()) / joint.max_speed.value
+        if share > _FULL:
+            yield f"{joint.name} would turn at {share:.0%} of its top speed: give the motion more time."
+
+
+def _clearances(robot: Robot, times: FloatArray, q: FloatArray, table: float | None, units: Units) -> Iterator[str]:
+    clear = clearance(robot, q, table=0.0 if table is None else table)
+    wanted = (("the table", clear.table if table is not None else None), ("itself", clear.own))
+    for what, found in wanted:
+        if found is None or not len(found):
+            continue
+        worst = int(np.argmin(found))
+        if found[worst] < 0.0:
+            yield f"At {times[worst]:.2f} s the arm would touch {what}, {length_words(robot, -float(found[worst]), units)} deep."
