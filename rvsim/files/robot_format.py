@@ -24,6 +24,7 @@ _POINT = Numbers(("x", "y", "z"), _LENGTH)
 _EDGES = Numbers(("x", "y", "z"), Number("length", 1e-6, 1e6))
 _ANGLES = Numbers(("roll", "pitch", "yaw"), _ANGLE)
 _INERTIA = Numbers(("xx", "yy", "zz", "xy", "xz", "yz"), Number("plain", -1e6, 1e6))
+_FINGER = Key("finger", Flag(), False, "true: it moves with the gripper")
 _LOOK_COLOR = Key("color", HexColor(optional=True), "", "when absent: the colour of the joint that moves it")
 _MOST_JOINTS = 32
 # An arm whose lengths add up to less than this [m] was most likely written in metres instead of millimetres.
@@ -121,20 +122,30 @@ GRIPPER = Table(
     keys=(
         Key("color", HexColor(), "#2ca02c"),
         Key("points", Items("point", _POINT, 2, 200), comment="an open line in the flange frame"),
+        Key("closing", _POINT, (0.0, 0.0, 0.0), "how far a finger moves inwards from open to closed"),
     ),
-    build=lambda values, _: Gripper(values["points"], values["color"]),
-    parts=lambda gripper: {"color": gripper.color, "points": [_tuple(point) for point in gripper.points]},
+    build=lambda values, _: Gripper(values["points"], values["color"], values["closing"]),
+    parts=lambda gripper: (
+        vars(gripper) | {"points": [_tuple(point) for point in gripper.points], "closing": _tuple(gripper.closing)}
+    ),
 )
 _FRAME = Key(
     "frame", Number("plain", 0, _MOST_JOINTS + 1), comment="0 the base, i the link behind joint i, n + 1 the tool"
 )
 CAPSULE = Table(
-    keys=(_FRAME, Key("start", _POINT), Key("end", _POINT), Key("radius", Number("length", 1e-6, 1e6)), _LOOK_COLOR),
+    keys=(
+        _FRAME,
+        Key("start", _POINT),
+        Key("end", _POINT),
+        Key("radius", Number("length", 1e-6, 1e6)),
+        _LOOK_COLOR,
+        _FINGER,
+    ),
     build=lambda values, place: CapsuleShape(**_whole_frame(values, place)),
     parts=lambda shape: vars(shape) | {"start": _tuple(shape.start), "end": _tuple(shape.end)},
 )
 BOX = Table(
-    keys=(_FRAME, Key("center", _POINT), Key("size", _EDGES), _LOOK_COLOR),
+    keys=(_FRAME, Key("center", _POINT), Key("size", _EDGES), _LOOK_COLOR, _FINGER),
     build=lambda values, place: BoxShape(**_whole_frame(values, place)),
     parts=lambda shape: vars(shape) | {"center": _tuple(shape.center), "size": _tuple(shape.size)},
 )
@@ -306,10 +317,13 @@ def _check_frames(shapes: tuple[Shape, ...], dof: int, place: Place) -> None:
     counts = {CapsuleShape: 0, BoxShape: 0}
     for shape in shapes:
         counts[type(shape)] += 1
+        there = place.at("look").at(f"{'box' if isinstance(shape, BoxShape) else 'capsule'} {counts[type(shape)]}")
         if shape.frame > dof + 1:
-            name = f"{'box' if isinstance(shape, BoxShape) else 'capsule'} {counts[type(shape)]}"
-            there = place.at("look").at(name).at("key 'frame'", f"frame: {_FRAME.comment}.")
-            there.refuse(str(shape.frame), f"0 to {dof + 1} for an arm of {dof} joints")
+            key = there.at("key 'frame'", f"frame: {_FRAME.comment}.")
+            key.refuse(str(shape.frame), f"0 to {dof + 1} for an arm of {dof} joints")
+        if shape.finger and shape.frame != dof:
+            key = there.at("key 'finger'", f"finger: {_FINGER.comment}.")
+            key.refuse(f"a finger of frame {shape.frame}", f"frame {dof}, the flange, which carries the gripper")
 
 
 def _check_masses(masses: int, dof: int, place: Place) -> None:

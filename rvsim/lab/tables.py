@@ -122,7 +122,7 @@ def without_nan(value: Any) -> Any:
 
 
 def json_text(record: Any) -> str:
-    """The record as JSON: a line an entry, and a line an item of a list in it: a thousand missed points stay legible."""
+    """The record as JSON: a line an entry, and a line an item of a list in it; thousands of them stay legible."""
     return _lines(without_nan(record), 2)
 
 

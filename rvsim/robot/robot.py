@@ -73,15 +73,36 @@ class Tool:
         object.__setattr__(self, "T_flange_tool", frozen_array("T_flange_tool", self.T_flange_tool, (4, 4)))
 
 
+_NOWHERE = frozen_array("nowhere", np.zeros(3), (3,))
+_IN_THE_MIDDLE = 1e-9  # [m²]
+
+
 @dataclass(frozen=True, eq=False)
 class Gripper:
-    """The gripper's outline in the stick figure: `points` (k, 3) in the flange frame [m], one open polyline."""
+    """A gripper of two fingers, drawn open: its outline in the stick figure, and how the fingers close.
+
+    Args:
+        points: (k, 3) in the flange frame [m], one open polyline.
+        closing: (3,) how far a finger on the positive side of this direction moves against it until it is closed, in
+            the flange frame [m]; a finger on the other side moves as far towards it. Zeros: nothing moves.
+    """
 
     points: FloatArray
     color: str = "#2ca02c"
+    closing: FloatArray = field(default_factory=lambda: _NOWHERE)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", frozen_array("gripper points", self.points, (-1, 3)))
+        object.__setattr__(self, "closing", frozen_array("gripper closing", self.closing, (3,)))
+
+    def shift(self, points: FloatArray, opening: float) -> FloatArray:
+        """(..., 3) how far points (..., 3) of the fingers are from where they are drawn; `opening` is 0 (closed) … 1.
+
+        What lies in the middle belongs to no finger and stays.
+        """
+        along = points @ self.closing
+        sides = np.where(np.abs(along) > _IN_THE_MIDDLE, np.sign(along), 0.0)
+        return np.asarray((opening - 1.0) * sides[..., None] * self.closing)
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,6 +170,8 @@ class Robot:
             raise RobotDefinitionError(self.name, "an arm needs at least one joint.")
         for joint in self.joints:
             _check_joint(self.name, joint)
+        if any(shape.finger and shape.frame != self.dof for shape in self.shapes):
+            raise RobotDefinitionError(self.name, f"a finger of the gripper moves with frame {self.dof}, the flange.")
         if self.masses and len(self.masses) != self.dof:
             raise RobotDefinitionError(self.name, f"{len(self.masses)} link masses for {self.dof} links.")
         if self.servos and len(self.servos) != self.dof:

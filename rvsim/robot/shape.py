@@ -19,6 +19,7 @@ class CapsuleShape:
         start, end: (3,) ends of its axis in that frame [m].
         radius: [m].
         color: "#rrggbb", or "" for the colour of the joint that moves it.
+        finger: whether it is part of a finger and moves with the arm's `Gripper`.
     """
 
     frame: int
@@ -26,6 +27,7 @@ class CapsuleShape:
     end: FloatArray
     radius: float
     color: str = ""
+    finger: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "start", frozen_array("capsule start", self.start, (3,)))
@@ -40,13 +42,14 @@ class BoxShape:
         frame: the link it moves with, as in `CapsuleShape`.
         center: (3,) [m].
         size: (3,) full edge lengths [m].
-        color: "#rrggbb", or "" for the colour of the joint that moves it.
+        color, finger: as in `CapsuleShape`.
     """
 
     frame: int
     center: FloatArray
     size: FloatArray
     color: str = ""
+    finger: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "center", frozen_array("box center", self.center, (3,)))

@@ -45,12 +45,18 @@ def compose(
     palette: ScenePalette,
     options: SceneOptions | None = None,
     extras: Iterable[Item] = (),
+    *,
+    opening: float = 1.0,
 ) -> Scene:
-    """The arm at q (n,) on its floor, with more items (paths, trails, ghosts) if given."""
+    """The arm at q (n,) on its floor, with more items (paths, trails, ghosts) if given.
+
+    Args:
+        opening: of the gripper, 0 (closed) … 1 (open).
+    """
     chosen = options or SceneOptions()
     unit = "unit" if robot.length_unit == "unit" else chosen.length_unit
     floor = floor_items(palette, floor_extent(robot), unit) if chosen.floor else ()
-    arm = arm_items(robot, q, palette, look=chosen.look, frames=chosen.frames, labels=chosen.labels)
+    arm = arm_items(robot, q, palette, look=chosen.look, frames=chosen.frames, labels=chosen.labels, opening=opening)
     return Scene((*floor, *extras, *arm), palette.background, scene_bounds(robot))
 
 
@@ -64,9 +70,10 @@ def arm_items(
     labels: bool = True,
     key: str = "arm",
     alpha: float = 1.0,
+    opening: float = 1.0,
 ) -> tuple[Item, ...]:
     """The arm at q (n,); a ghost is the same arm under another key with a smaller alpha and no labels."""
-    pose = posed(robot, link_transforms(robot, q))
+    pose = posed(robot, link_transforms(robot, q), opening)
     items: list[Item] = []
     if look != "stick":
         items += solid_items(pose, palette, key, alpha if look == "solid" else _SEE_THROUGH * alpha)

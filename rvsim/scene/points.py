@@ -20,11 +20,15 @@ def source_points(robot: Robot, q: ArrayLike) -> FloatArray:
     return np.vstack([T[:, :3, 3], gripper_points(robot, T)])
 
 
-def gripper_points(robot: Robot, T: FloatArray) -> FloatArray:
-    """(k, 3) the gripper's outline at link transforms T (n + 1, 4, 4), base axes [m]; k = 0 without a gripper."""
+def gripper_points(robot: Robot, T: FloatArray, opening: float = 1.0) -> FloatArray:
+    """(k, 3) the gripper's outline at link transforms T (n + 1, 4, 4), base axes [m]; k = 0 without a gripper.
+
+    `opening` is 0 (closed) … 1 (open).
+    """
     if robot.gripper is None:
         return np.empty((0, 3))
-    return np.asarray(robot.gripper.points @ T[-1, :3, :3].T + T[-1, :3, 3])
+    points = robot.gripper.points + robot.gripper.shift(robot.gripper.points, opening)
+    return np.asarray(points @ T[-1, :3, :3].T + T[-1, :3, 3])
 
 
 def frames(robot: Robot, T: FloatArray) -> FloatArray:

@@ -24,9 +24,20 @@ def solid_items(pose: Pose, palette: ScenePalette, key: str, alpha: float) -> li
         return _shells(pose, palette, key, alpha)
     T = frames(pose.robot, pose.T)
     return [
-        _solid(shape, T[shape.frame], f"{key}.solid{index}", _color(pose.robot, shape, palette).faded(alpha))
+        _solid(shape, _moved(pose, T, shape), f"{key}.solid{index}", _color(pose.robot, shape, palette).faded(alpha))
         for index, shape in enumerate(pose.robot.shapes)
     ]
+
+
+def _moved(pose: Pose, T: FloatArray, shape: Shape) -> FloatArray:
+    """The frame of a shape among T (n + 2, 4, 4); that of a finger comes with it."""
+    placed: FloatArray = T[shape.frame]
+    if not shape.finger or pose.robot.gripper is None:
+        return placed
+    middle = 0.5 * (shape.start + shape.end) if isinstance(shape, CapsuleShape) else shape.center
+    moved = placed.copy()
+    moved[:3, 3] += placed[:3, :3] @ pose.robot.gripper.shift(middle, pose.opening)
+    return moved
 
 
 def _solid(shape: Shape, T: FloatArray, key: str, color: Color) -> Item:

@@ -20,18 +20,22 @@ JOINT_SIZE = 13.0
 
 
 class Pose(NamedTuple):
-    """An arm in a pose, with all that both looks need: link transforms T (n + 1, 4, 4) and points derived from them."""
+    """An arm in a pose, with all that both looks need: link transforms T (n + 1, 4, 4) and points derived from them.
+
+    Its gripper is `opening` open, 0 (closed) … 1.
+    """
 
     robot: Robot
     T: FloatArray
     corners: FloatArray  # (n, 3)
     joints: FloatArray  # (n, 3)
+    opening: float = 1.0
 
 
-def posed(robot: Robot, T: FloatArray) -> Pose:
+def posed(robot: Robot, T: FloatArray, opening: float = 1.0) -> Pose:
     """The points of an arm with link transforms T (n + 1, 4, 4)."""
     corners = link_corners(robot, T)
-    return Pose(robot, T, corners, joint_points(robot, T, corners))
+    return Pose(robot, T, corners, joint_points(robot, T, corners), opening)
 
 
 def stick_items(pose: Pose, palette: ScenePalette, key: str, alpha: float, width: float = LINK_WIDTH) -> list[Item]:
@@ -110,7 +114,7 @@ def _tool(pose: Pose, palette: ScenePalette, key: str, alpha: float, width: floa
     items: list[Item] = []
     if np.linalg.norm(tool - flange) > 1e-9:
         items.append(Polyline(f"{key}.tool", np.stack([flange, tool]), color, 0.6 * width))
-    outline = gripper_points(pose.robot, pose.T)
+    outline = gripper_points(pose.robot, pose.T, pose.opening)
     if len(outline):
         items.append(Polyline(f"{key}.gripper", outline, color, 0.6 * width))
         items.append(Dots(f"{key}.gripper_points", outline, color, 0.9 * width))

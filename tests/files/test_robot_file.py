@@ -107,6 +107,7 @@ def robots(draw: st.DrawFn) -> Robot:
     bodies = st.builds(CapsuleShape, frames, points, points, st.floats(1e-3, 1.0), colors) | st.builds(
         BoxShape, frames, points, st.tuples(*[st.floats(1e-3, 9.0)] * 3), st.just("")
     )
+    bodies |= st.builds(CapsuleShape, st.just(len(arm)), points, points, st.just(0.01), colors, st.booleans())
     link = st.builds(LinkMass, st.floats(0, 99), points, st.just(np.diag([1.5, 2.5, 3.5])), st.booleans(), words)
     return Robot(
         name="drawn",
@@ -116,7 +117,7 @@ def robots(draw: st.DrawFn) -> Robot:
         T_base_0=draw(places),
         tools=tuple(tools),
         tool_name=tools[-1].name,
-        gripper=draw(st.none() | st.builds(Gripper, st.lists(points, min_size=2, max_size=5), colors)),
+        gripper=draw(st.none() | st.builds(Gripper, st.lists(points, min_size=2, max_size=5), colors, points)),
         shapes=tuple(draw(st.lists(bodies, max_size=4))),
         masses=tuple(draw(st.just([]) | st.lists(link, min_size=len(arm), max_size=len(arm)))),
         length_unit=draw(st.sampled_from(["millimetre", "unit"])),
@@ -217,6 +218,8 @@ BAD_FILES = [
     ("xyz = [0, 0, 107]", 'xyz = [0, 0, "107"]', "tool 2, key 'xyz', z", "without quotes"),
     ("[-35, 0, 0],", "[-35, 0, nan],", "gripper, point 1, z", "nan"),
     ("frame = 3", "frame = 7", "look, capsule 3, key 'frame'", "5 joints"),
+    ('color = "#8B96A5" }', "finger = true }", "look, box 3, key 'finger'", "frame 5, the flange"),
+    ("closing = [32, 0, 0]", "closing = [32, 0]", "gripper, key 'closing'", "[x, y, z]"),
     ("frame = 3", "frame = 2.5", "look, capsule 3, key 'frame'", "whole number"),
     ("radius = 30", "radius = 0", "look, capsule 1, key 'radius'", "1e-06"),
     ("[gripper]", "[gripper", "line 10", "TOML"),

@@ -10,11 +10,11 @@ import pytest
 from rvsim.files import load_robot, robot_names
 from rvsim.kinematics import forward_kinematics, link_transforms
 from rvsim.robot import Joint, Robot
-from rvsim.scene import Capsule, Color, Dots, Item, Labels, Polyline
+from rvsim.scene import Box, Capsule, Color, Dots, Item, Labels, Polyline
 from rvsim.scene.build import LOOKS, Look, SceneOptions, arm_items, compose, scene_bounds
 from rvsim.scene.floor import FLOOR_KEY
 from rvsim.scene.palette import DARK, LIGHT
-from rvsim.scene.points import link_corners, source_points
+from rvsim.scene.points import gripper_points, link_corners, source_points
 
 RVM1_Q = np.radians([30.0, 40.0, -50.0, 20.0, 60.0])
 
@@ -128,3 +128,39 @@ def test_joints_at_one_place_share_a_label() -> None:
 def test_the_background_is_the_palettes() -> None:
     robot = load_robot("scara")
     assert compose(robot, robot.home, DARK).background == DARK.background
+
+
+@pytest.mark.parametrize("name", ["rv-m1", "al5b"])
+def test_the_fingers_of_a_gripper_meet_in_the_middle_and_nothing_else_moves(name: str) -> None:
+    robot = load_robot(name)
+    T = link_transforms(robot, robot.home)
+    open_, half, closed = (
+        _by_key(arm_items(robot, robot.home, LIGHT, look="both", labels=False, opening=opening))
+        for opening in (1.0, 0.5, 0.0)
+    )
+    assert _by_key(arm_items(robot, robot.home, LIGHT, look="both", labels=False)).keys() == open_.keys()
+    fingers = {f"arm.solid{index}" for index, shape in enumerate(robot.shapes) if shape.finger}
+    assert len(fingers) >= 2
+    inner = []
+    for key, item in open_.items():
+        if not isinstance(item, Box):
+            continue
+        place, between, end = (boxes[key].T_base_box[:3, 3] for boxes in (open_, half, closed))  # type: ignore[union-attr]
+        if key in fingers:
+            np.testing.assert_allclose(between, 0.5 * (place + end), atol=1e-15)
+            inner.append((T[-1, :3, :3].T @ (end - T[-1, :3, 3]), item.size))
+        else:
+            np.testing.assert_array_equal(place, end)
+    axis = int(np.argmax(np.abs(robot.gripper.closing)))  # type: ignore[union-attr]
+    gaps = [abs(center[axis]) - 0.5 * size[axis] for center, size in inner]
+    assert 0.0 <= min(gaps) < 1e-3  # closed, the plates just touch
+
+
+def test_an_outline_narrows_and_keeps_its_middle() -> None:
+    robot = load_robot("rv-m1")
+    T = link_transforms(robot, RVM1_Q)
+    outlines = [gripper_points(robot, T, opening) for opening in (1.0, 0.25, 0.0)]
+    widths = [np.linalg.norm(points[0] - points[-1]) for points in outlines]
+    np.testing.assert_allclose(widths, (0.070, 0.022, 0.006), atol=1e-12)
+    np.testing.assert_allclose([points[2] for points in outlines], [outlines[0][2]] * 3, atol=1e-15)
+    np.testing.assert_array_equal(outlines[0], source_points(robot, RVM1_Q)[-5:])
