@@ -55,4 +55,5 @@ def _clearances(robot: Robot, times: FloatArray, q: FloatArray, table: float | N
             continue
         worst = int(np.argmin(found))
         if found[worst] < 0.0:
-            yield f"At {times[worst]:.2f} s the arm would touch {what}, {length_words(robot, -float(found[worst]), units)} deep."
+            depth = length_words(robot, -float(found[worst]), units)
+            yield f"At {times[worst]:.2f} s the arm would touch {what}, {depth} deep."
