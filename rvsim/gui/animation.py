@@ -15,6 +15,7 @@ from PySide6.QtGui import QImage
 
 from rvsim.errors import FileWriteError
 from rvsim.files.atomic import write_atomically
+from rvsim.gui.motion_control import Opening
 from rvsim.gui.renderers.painter import scene_image
 from rvsim.playback.player import Playable
 from rvsim.robot import Robot
@@ -78,12 +79,13 @@ class Picturing:
     extras: tuple[Item, ...] = ()
     trail_times: FloatArray = field(default_factory=lambda: np.empty(0))
     trail: FloatArray = field(default_factory=lambda: np.empty((0, 3)))
+    opening_at: Opening = lambda _: 1.0
 
     def frame(self, time: float, q: FloatArray, settings: AnimationSettings) -> QImage:
         """The picture of a pose (n,) at a moment [s]: what the tool has drawn until then is there."""
         done = int(np.searchsorted(self.trail_times, time + 1e-9))
         extras = (*self.extras, *trail_items(self.trail[:done], self.palette))
-        scene = compose(self.robot, q, self.palette, self.options, extras)
+        scene = compose(self.robot, q, self.palette, self.options, extras, opening=self.opening_at(time))
         return scene_image(scene, self.camera, settings.width, settings.height)
 
 

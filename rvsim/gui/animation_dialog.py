@@ -62,6 +62,7 @@ class AnimationDialog(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._preferences, self._stage = session, preferences, stage
         self._trajectory: Playable | None = motion.player.trajectory
+        self._opening_at = motion.opening_at
         self._animation: Animation | None = None
         self._worker = LatestWorker(self)
         self._worker.done.connect(self._on_encoded)
@@ -282,7 +283,7 @@ class AnimationDialog(QDialog):
         if isinstance(self._trajectory, Trajectory) and wanted["show_trail"]:
             times = np.linspace(self._trajectory.path_start, self._trajectory.duration, _TRAIL)
             points = forward_kinematics(self._session.robot, self._trajectory.q(times))[:, :3, 3]
-        return Picturing(self._session.robot, camera, palette, options, path, times, points)
+        return Picturing(self._session.robot, camera, palette, options, path, times, points, self._opening_at)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Whatever is at work ends; Qt goes on with `reject`."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 
 from rvsim.experiment import Experiment
@@ -14,8 +16,15 @@ _FRAME_MS = 16
 _LONGEST_STEP = 0.25  # [s]: after a hang the motion goes on from where it was seen, it does not leap
 
 
+Opening = Callable[[float], float]  # how far the gripper is open at a moment [s], 0 (closed) … 1
+
+
+def _open(_: float) -> float:
+    return 1.0
+
+
 class MotionControl(QObject):
-    """The player of the window.
+    """The player of the window; `opening_at` is what the gripper does meanwhile.
 
     Signals:
         moved(time): another moment is shown [s].
@@ -35,6 +44,7 @@ class MotionControl(QObject):
         self._text = ""
         self._motion = 0  # counts what was loaded: all of one motion is one undo step
         self._showing = False
+        self.opening_at: Opening = _open
         self._said_state = self.player.state
         self._clock = QElapsedTimer()
         self._timer = QTimer(self)
@@ -44,14 +54,24 @@ class MotionControl(QObject):
         session.changed.connect(self._on_changed)
         preferences.changed.connect(self._on_preference)
 
-    def load(self, trajectory: Playable | None, text: str) -> None:
-        """Put a trajectory in; `text` names its undo step, for instance "Track line"."""
+    def load(self, trajectory: Playable | None, text: str, opening_at: Opening | None = None) -> None:
+        """Put a trajectory in; `text` names its undo step, for instance "Track line".
+
+        Without `opening_at` the gripper stays as it is.
+        """
+        left = self.opening
+        self.opening_at = opening_at or (lambda _: left)
         self._timer.stop()
         self.player.load(trajectory)
         self._text = text
         self._motion += 1
         self.loaded.emit()
         self._tell()
+
+    @property
+    def opening(self) -> float:
+        """How far the gripper is open at the moment that is shown, 0 (closed) … 1."""
+        return self.opening_at(self.player.time)
 
     def play(self) -> None:
         """Let the motion run."""
@@ -131,6 +151,8 @@ class MotionControl(QObject):
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         """Somebody else edits, or undoes: hold the motion; another arm: take the trajectory out."""
+        if after.robot.name != before.robot.name:
+            self.opening_at = _open
         if self._showing or self.player.trajectory is None:
             return
         if after.robot is not before.robot:

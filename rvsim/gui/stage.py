@@ -49,6 +49,8 @@ class Stage(QObject):
         self._trail_times = np.empty(0)
         self._trail_up: NDArray[np.bool_] | None = None
         self._layers: dict[str, tuple[Item, ...]] = {}
+        self._gripper: float | None = None  # that of a connected arm
+        self._shown_opening = 1.0
         self._stale = QTimer(self, singleShot=True, interval=0)
         self._stale.timeout.connect(lambda: self._show_at(self._shown_q))
         self._from_q: FloatArray = session.q
@@ -62,6 +64,7 @@ class Stage(QObject):
         session.settled.connect(self._on_changed)
         session.tracking_changed.connect(self._on_tracking)
         motion.loaded.connect(self._on_loaded)
+        motion.moved.connect(lambda _: self._show_opening())
         view.set_outliers(lambda: np.concatenate([self._target_corners(), self._drawn_corners()]))
         preferences.changed.connect(self._on_preference)
         self.show()
@@ -92,8 +95,26 @@ class Stage(QObject):
             self._layers[name] = items
             self._stale.start()
 
+    def show_gripper(self, opening: float | None) -> None:
+        """Draw the gripper so far open, 0 (closed) … 1, whatever is played: as a connected arm has it.
+
+        None: as the motion that is played has it.
+        """
+        self._gripper = None if opening is None else min(max(opening, 0.0), 1.0)
+        self._show_opening()
+
+    @property
+    def opening(self) -> float:
+        """How far the gripper that is drawn is open, 0 (closed) … 1."""
+        return self._motion.opening if self._gripper is None else self._gripper
+
+    def _show_opening(self) -> None:
+        """From the next picture on: while the gripper moves, the arm need not."""
+        if self.opening != self._shown_opening:
+            self._stale.start()
+
     def _show_at(self, q: FloatArray) -> None:
-        self._shown_q = q
+        self._shown_q, self._shown_opening = q, self.opening
         self._stale.stop()
         options = SceneOptions(
             look=self._preferences["look"],
@@ -104,7 +125,7 @@ class Stage(QObject):
         )
         layers = (item for items in self._layers.values() for item in items)
         extras = (*self._path, *self._trail_now(), *layers)
-        scene = compose(self._session.robot, q, self.palette, options, extras)
+        scene = compose(self._session.robot, q, self.palette, options, extras, opening=self._shown_opening)
         self._view.set_scene(replace(scene, bounds=self._with_path(scene.bounds)))
 
     def _with_path(self, bounds: FloatArray) -> FloatArray:

@@ -349,7 +349,8 @@ class ProgramPage(PathPage):
         self._tracker.cancel()
         self._tracker.clear()
         self._running = plan
-        self._motion.load(plan.trajectory, "Run program")
+        before = self._motion.opening
+        self._motion.load(plan.trajectory, "Run program", lambda t: plan.opening_at(t, before))
         self._motion.play()
         self._show_running()
 

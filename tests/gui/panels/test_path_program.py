@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from rvsim import forward_kinematics
 from rvsim.experiment.program import ArcMove, Gripper, JointMove, LineMove, Wait
+from rvsim.files import load_robot
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.path_program import ProgramPage
 from rvsim.gui.quantity_box import QuantityBox
@@ -139,6 +140,38 @@ def test_an_arc_begins_as_a_half_way_up_and_the_gripper_closes_then_opens(page: 
     press(page, "add_gripper")
     press(page, "add_gripper")
     assert page.program[-2:] == (Gripper(0.0), Gripper(1.0))
+
+
+def test_the_gripper_is_seen_to_close_while_the_program_runs(page: ProgramPage, qtbot: QtBot) -> None:
+    session, motion, stage = page._session, page._motion, page._stage
+    page._put("Grip", (Gripper(0.0, 2.0), Wait(1.0), Gripper(0.5, 1.0)), 0)
+    planned(page, qtbot)
+    press(page, "run")
+    motion.pause()
+    width = _seen_width(stage)
+    widths = {}
+    for t in (0.0, 1.0, 2.0, 3.0, 4.0):
+        motion.seek(t)
+        qtbot.waitUntil(lambda: not stage._stale.isActive())
+        widths[t] = _seen_width(stage) / width
+    closed = 1.0 - 2.0 * 0.032 / 0.070  # what the robot file says, of the 70 mm between the fingers
+    expected = np.interp((1.0, 0.5, 0.0, 0.0, 0.5), (0.0, 1.0), (closed, 1.0))
+    np.testing.assert_allclose(list(widths.values()), expected, atol=1e-9)
+    stage.show_gripper(1.0)  # a connected arm's own
+    qtbot.waitUntil(lambda: not stage._stale.isActive())
+    assert _seen_width(stage) == pytest.approx(width)
+    stage.show_gripper(None)
+    assert stage.opening == pytest.approx(0.5)
+    motion.load(None, "")
+    assert stage.opening == pytest.approx(0.5)  # nothing has opened it
+    session.use_robot(load_robot("al5b"))
+    assert stage.opening == 1.0
+
+
+def _seen_width(stage: Stage) -> float:
+    stage._preferences.set("look", "stick")
+    (outline,) = [item for item in stage.view.scene.items if item.key == "arm.gripper"]
+    return float(np.linalg.norm(outline.points[0] - outline.points[-1]))
 
 
 def test_the_tool_may_be_turned_kept_or_free(page: ProgramPage) -> None:
