@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rvsim.experiment.load import NO_LOAD, Load
 from rvsim.experiment.program import Program
 from rvsim.experiment.shapes import Placement, Shape
 from rvsim.motion.trajectory import Law
@@ -80,7 +81,8 @@ class Experiment:
     """One arm, its present pose q (n,) [rad, m], and what is to be done with it.
 
     `target` (4, 4) is the tool pose that was wanted where the arm could not follow; None is the tool's own. `law` and
-    `path_seconds` say how paths are travelled: None is a calm pace, 0 as quick as the joints may.
+    `path_seconds` say how paths are travelled: None is a calm pace, 0 as quick as the joints may; `ease` slows a path
+    down only where a joint needs it, not as a whole. `load` is what the tool pulls at and carries.
     """
 
     robot: Robot
@@ -93,6 +95,8 @@ class Experiment:
     law: Law = "quintic"
     path_seconds: float | None = None
     program: Program = ()
+    load: Load = NO_LOAD
+    ease: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "q", frozen_array("q", self.q, (self.robot.dof,)))
@@ -106,6 +110,10 @@ class Experiment:
     def with_robot(self, robot: Robot) -> Experiment:
         """With an edited arm of the same joints; the pose stays."""
         return replace(self, robot=robot)
+
+    def with_load(self, load: Load) -> Experiment:
+        """With something else to hold."""
+        return replace(self, load=load)
 
     def with_pose(self, name: str) -> Experiment:
         """The present pose remembered under a name; an older pose of that name is replaced."""
