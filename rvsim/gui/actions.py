@@ -55,7 +55,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("show_labels", "&View", "Labels", "Names in the scene", "Ctrl+Shift+B", True),
     ActionSpec("show_floor", "&View", "Floor", "The floor with its dimensions", "Ctrl+Shift+G", True),
     ActionSpec("show_trail", "&View", "Tool trail", "What the tool has drawn", "Ctrl+Shift+T", True),
-    ActionSpec("show_plots", "&View", "Plots", "Curves of the motion below the scene", "Ctrl+P", True, before=True),
+    ActionSpec("show_plots", "&View", "Curves", "The motion over time, below the scene", "Ctrl+P", True, before=True),
     ActionSpec("dark", "&View", "Dark", "Light letters on a dark ground", "Ctrl+Shift+D", True, before=True),
     ActionSpec("presentation", "&View", "Presentation size", "Larger, for a projector", "Ctrl+Shift+F", True),
     ActionSpec("radians", "&View", "Angles in radians", "Instead of degrees", "Ctrl+Shift+R", True, before=True),

@@ -35,8 +35,8 @@ _MOST_SHOWN = 6
 _IN_ROW = 3
 _EMPTY = "No motion yet: press Track line, or track a trajectory, and its curves are drawn here."
 _READOUT_TIP = (
-    "Values at the cursor of the plot that the mouse was in last, and the largest of the whole motion. "
-    "▾ in a plot: near a singularity, or a jump to another branch."
+    "Values at the cursor of the curves that the mouse was in last, and the largest of the whole motion. "
+    "▾ beside a curve: near a singularity, or a jump to another branch."
 )
 _DECIMALS = 2
 _NARROW = 170  # [pixels] a plot narrower than this gets a row of its own
@@ -164,7 +164,7 @@ class PlotsPanel(QWidget):
         trajectory = self._motion.player.trajectory
         there = isinstance(trajectory, Trajectory)
         self.empty.setVisible(not there or not self.chosen)
-        self.empty.setText(_EMPTY if not there else "Choose above what is to be plotted.")
+        self.empty.setText(_EMPTY if not there else "Choose above which curves are to be drawn.")
         self._curves = None
         if isinstance(trajectory, Trajectory):
             self._curves = curves_of(self._session.robot, trajectory, self._session.tracking)

@@ -41,7 +41,7 @@ def save_plot(plot: TimePlot, path: str | Path) -> None:
     file = Path(path)
     makers: dict[str, Callable[[TimePlot], bytes]] = {".png": _png, ".svg": _svg}
     if file.suffix.lower() not in makers:
-        raise FileWriteError(file, f"“{file.suffix}” is no ending of a plot. Known: {', '.join(makers)}")
+        raise FileWriteError(file, f"“{file.suffix}” is no ending of a picture of curves. Known: {', '.join(makers)}")
     try:
         write_atomically(file, makers[file.suffix.lower()](plot))
     except OSError as problem:
@@ -65,9 +65,9 @@ def plot_menu(plot: TimePlot) -> QMenu:
 
 def ask_save_plot(plot: TimePlot, parent: QWidget | None = None) -> None:
     """Ask for a place and save it there."""
-    name = plot.accessibleName().split(" over")[0].replace(" ", "-") or "plot"
+    name = plot.accessibleName().split(" over")[0].replace(" ", "-") or "curves"
     start = str(Path.home() / f"{name}.png")
-    file, kind = QFileDialog.getSaveFileName(parent or plot.window(), "Save plot", start, _KINDS)
+    file, kind = QFileDialog.getSaveFileName(parent or plot.window(), "Save curves", start, _KINDS)
     if not file:
         return
     path = Path(file) if Path(file).suffix else Path(file).with_suffix(".svg" if "svg" in kind else ".png")
