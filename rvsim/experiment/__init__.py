@@ -10,18 +10,22 @@ from rvsim.experiment.experiment import (
     limit_violations,
     random_pose,
 )
+from rvsim.experiment.load import NO_LOAD, Load, WrenchAxes
 from rvsim.experiment.shapes import SHAPE_KINDS, Placement, Shape
 
 __all__ = [
+    "NO_LOAD",
     "SHAPE_KINDS",
     "Experiment",
     "LimitViolation",
     "LineTask",
+    "Load",
     "NamedPose",
     "PathOrientation",
     "Placement",
     "Shape",
     "TrajectoryTask",
+    "WrenchAxes",
     "limit_violations",
     "random_pose",
 ]

@@ -150,14 +150,17 @@ class MotionControl(QObject):
             self.state_changed.emit(self._said_state)
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
-        """Somebody else edits, or undoes: hold the motion; another arm: take the trajectory out."""
+        """Somebody else edits, or undoes: hold the motion; another arm: take the trajectory out.
+
+        What the arm has to hold may change while it moves.
+        """
         if after.robot.name != before.robot.name:
             self.opening_at = _open
         if self._showing or self.player.trajectory is None:
             return
         if after.robot is not before.robot:
             self.load(None, "")
-        else:
+        elif after.load is before.load or after.q is not before.q:
             self.pause()
 
     def _on_preference(self, name: str) -> None:

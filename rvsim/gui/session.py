@@ -19,14 +19,14 @@ from rvsim.robot.arrays import FloatArray
 class _Change(QUndoCommand):
     """From one experiment to the next."""
 
-    def __init__(self, session: Session, text: str, after: Experiment, merge: str) -> None:
+    def __init__(self, session: Session, text: str, after: Experiment, merge: str, follows: str) -> None:
         super().__init__(text)
-        self._session, self._merge = session, merge
+        self._session, self.merge, self.follows = session, merge, follows  # `follows`: the key of the change before it
         self._before, self._after = session.experiment, after
 
     def continues(self, merge: str) -> bool:
         """Whether a change with that key goes on with this one."""
-        return bool(merge) and merge == self._merge
+        return bool(merge) and merge == self.merge
 
     def extend(self, after: Experiment) -> None:
         """Lead on to a still later state."""
@@ -107,7 +107,7 @@ class Session(QObject):
         last = self._last_change()
         # Not by QUndoCommand.mergeWith: the stack never lets go of the Python side of the commands that it merged.
         if last is None or not last.continues(key):
-            self.undo_stack.push(_Change(self, text, experiment, key))
+            self.undo_stack.push(_Change(self, text, experiment, key, last.merge if last else ""))
             return
         self.continuing = True
         try:
@@ -143,13 +143,21 @@ class Session(QObject):
         return True
 
     def show_moment(self, q: ArrayLike, text: str, motion: int) -> None:
-        """Show a moment of a motion. All moments of the same number in a row are one undo step, back to the first."""
+        """Show a moment of a motion. All moments of the same number in a row are one undo step, back to the first.
+
+        What is dragged meanwhile is one step too, which takes the moments that pass with it.
+        """
         if not np.array_equal(q, self.q):
             self._showing_moment = True
             try:
-                self._change(text, self._experiment.at(q), f"motion {motion}")
+                self._change(text, self._experiment.at(q), self._moment_key(f"motion {motion}"))
             finally:
                 self._showing_moment = False
+
+    def _moment_key(self, motion: str) -> str:
+        last = self._last_change()
+        dragged = last is not None and last.follows == motion and last.merge.endswith(f"#{self._merge_stroke}")
+        return last.merge if last is not None and dragged else motion
 
     def use_robot(self, robot: Robot) -> None:
         """Take another arm, as it was left when it was last in use."""

@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
 from PySide6.QtWidgets import QToolButton
 
-from rvsim.gui.panels.inspect_forces import ForcesPage, Pull
 from rvsim.gui.panels.inspect_source import SourcePage
-from rvsim.gui.widgets import select
 from rvsim.lab.sources.experiment import Move, Setup, SourceExperiment
 from rvsim.motion.trajectory import joint_move
 from rvsim.robot import Robot
@@ -48,14 +45,9 @@ def _bare(robot: Robot) -> Robot:
 
 
 def _prepare_pages(window: MainWindow, setup: Setup) -> None:
-    source, forces = window.findChild(SourcePage), window.findChild(ForcesPage)
+    source = window.findChild(SourcePage)
     if setup.erratum and source is not None:
         source.choose(setup.erratum)
-    if setup.pull is not None and forces is not None:
-        window.stage.load.set_payload(0.0)
-        forces.pull = Pull(np.array(setup.pull.wrench), setup.pull.axes)
-        select(forces.axes, setup.pull.axes)
-        forces.refresh()
     if setup.lab:
         pages = window.laboratory
         pages.pages.setCurrentWidget(pages.source_002 if setup.lab == "source 002" else pages.contest)

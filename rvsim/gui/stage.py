@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QEasingCurve, QObject, QTimer, QVariantAnimation
 
 from rvsim.experiment import Experiment
-from rvsim.gui.load import Load
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.scene_view import SceneView
@@ -43,7 +42,6 @@ class Stage(QObject):
     ) -> None:
         super().__init__(parent)
         self._session, self._motion, self._preferences, self._view = session, motion, preferences, view
-        self.load = Load(self)  # what the arm that is shown carries
         self._path: tuple[Item, ...] = ()
         self._trail = np.empty((0, 3))
         self._trail_times = np.empty(0)

@@ -366,8 +366,7 @@ class TargetControl(QObject):
             return
         self._pending = None
         self._rest.stop()
-        kept = after.target is before.target and not self.follows
-        self._wanted = after.target if after.target is not before.target or kept else None
+        self._wanted = after.target
         self._stale = True
         if self._watchers:
             self._refresh(self._stale_target())

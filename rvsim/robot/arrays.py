@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeGuard
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -11,12 +13,12 @@ FloatArray = NDArray[np.float64]
 
 
 def frozen_array(name: str, values: ArrayLike, shape: tuple[int, ...]) -> FloatArray:
-    """A read-only float copy of `values`; −1 in `shape` matches any length.
+    """A read-only float copy of `values`, or they themselves where nobody can write into them; −1 matches any length.
 
     Raises:
         ShapeError: the values have another shape.
     """
-    array = np.array(values, dtype=np.float64)
+    array = values if _is_frozen(values) else np.array(values, dtype=np.float64)
     matches = array.ndim == len(shape) and all(want in (-1, got) for want, got in zip(shape, array.shape, strict=True))
     if not matches:
         raise ShapeError(name, str(shape).replace("-1", "any"), array.shape)
@@ -34,3 +36,10 @@ def check_finite(name: str, array: FloatArray) -> None:
     if not finite.all():
         index = tuple(int(i) for i in np.argwhere(~finite)[0])
         raise NotFiniteError(name, index, float(array[index]))
+
+
+def _is_frozen(values: ArrayLike) -> TypeGuard[FloatArray]:
+    """Whether it is such an array already: a value that is edited keeps it, and who compares by `is` sees that."""
+    if not isinstance(values, np.ndarray) or values.dtype != np.float64:
+        return False
+    return values.flags.owndata and not values.flags.writeable

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -9,6 +10,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QTableView, QVBoxLayout, QWid
 
 from rvsim.dynamics import STANDARD_GRAVITY, dynamics_parts, kinetic_energy, mass_matrix, potential_energy
 from rvsim.errors import RobotDefinitionError
+from rvsim.experiment import Experiment
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
@@ -64,9 +66,9 @@ class DynamicsPage(InspectPage):
         self.at_rest = button("dynamics_rest", "At rest", "Set all velocities and accelerations to 0", self._rest)
         self.gravity = self._box("gravity", "gravity", "Gravity", STANDARD_GRAVITY)
         self.gravity.quantity_changed.connect(lambda _: self.refresh())
-        self.payload = self._box("dynamics_payload", "mass", "Payload at the tool", stage.load.payload)
-        self.payload.quantity_changed.connect(stage.load.set_payload)
-        stage.load.changed.connect(self._refresh_if_seen)
+        self.payload = self._box("dynamics_payload", "mass", "Payload at the tool", 0.0)
+        self.payload.quantity_changed.connect(self._take_payload)
+        self.payload.editingFinished.connect(session.end_stroke)
         self.place = combo("gravity_place", "Whose gravity", {**PLACES, _FREE: "own value"})
         self.place.activated.connect(lambda _: self._take_place())
         self.model = PartsModel(session.robot, preferences)
@@ -155,6 +157,10 @@ class DynamicsPage(InspectPage):
 
     # --- showing ---------------------------------------------------------------------------------------------------
 
+    def concerns(self, before: Experiment, after: Experiment) -> bool:
+        """The payload counts too."""
+        return super().concerns(before, after) or after.load is not before.load
+
     def refresh(self) -> None:
         """Show the dynamics of the present moment."""
         robot, q = self._session.robot, self._session.q
@@ -172,7 +178,7 @@ class DynamicsPage(InspectPage):
         self.draw(weight_items(robot, q, self._stage.palette))
 
     def _show_torques(self, robot: Robot, q: FloatArray, qd: FloatArray, qdd: FloatArray) -> None:
-        g, carried = self.gravity.quantity, self._stage.load.payload
+        g, carried = self.gravity.quantity, self._session.experiment.load.payload
         self.payload.set_quantity(carried)
         parts = dynamics_parts(robot, q, qd, qdd, gravity=g, payload=carried)
         self.model.show_values(robot, np.stack([*parts, parts.total], axis=-1))
@@ -229,6 +235,11 @@ class DynamicsPage(InspectPage):
         if self.place.currentData() != _FREE:
             self.gravity.set_quantity(float(self.place.currentData()))
             self.refresh()
+
+    def _take_payload(self, mass: float) -> None:
+        experiment = self._session.experiment
+        load = replace(experiment.load, payload=mass)
+        self._session.edit("Set the payload", experiment.with_load(load), merge="load payload")
 
     def _complain(self, sentence: str) -> None:
         self.message.setText(sentence)

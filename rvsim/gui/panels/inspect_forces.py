@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
+from typing import get_args
 
 import numpy as np
+from PySide6.QtCore import QSignalBlocker
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, largest_force, payload_wrench
+from rvsim.experiment import Experiment, Load, WrenchAxes
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
@@ -33,7 +36,7 @@ from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import button, column_of, combo, scrolled
+from rvsim.gui.widgets import button, column_of, combo, scrolled, select
 from rvsim.gui.wrench_drag import WrenchDrag
 from rvsim.kinematics import pose_and_jacobian
 from rvsim.lab.texts import NamedValue, values_latex, values_numpy, values_text
@@ -48,21 +51,6 @@ _MEANING = (
 _FORMULA_NOTE = "J of the tool in base axes; SI units: m, N, N m."
 
 
-@dataclass(frozen=True, eq=False)
-class Pull:
-    """What is asked of the arm: a wrench (6,) [N, N m] in `axes` ("base", "tool"), and to hold its own weight."""
-
-    wrench: FloatArray = field(default_factory=lambda: np.zeros(6))
-    axes: str = "base"
-    own_weight: bool = False
-
-    def in_base(self, R_base_tool: FloatArray) -> FloatArray:
-        """(6,) in base axes."""
-        if self.axes == "base":
-            return self.wrench
-        return np.concatenate([R_base_tool @ self.wrench[:3], R_base_tool @ self.wrench[3:]])
-
-
 class ForcesPage(InspectPage):
     """τ = Jᵀ F, live."""
 
@@ -72,24 +60,24 @@ class ForcesPage(InspectPage):
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
         super().__init__(session, preferences, stage, parent)
-        self.pull = Pull()
         self._robot: Robot | None = None
         self._arrows: WrenchArrows | None = None
-        self._before_drag = self.pull
+        self._before_drag = self.load
         self._R: FloatArray = np.eye(3)
         self._torques: FloatArray = np.zeros(0)
         self.axes = combo("wrench_axes", "Axes of the wrench", AXES)
         self.axes.activated.connect(lambda _: self._take_axes())
-        self.forces = self._row(_FORCES, "force", 0)
-        self.moments = self._row(_MOMENTS, "torque", 3)
+        self.forces = self._row(_FORCES, "force", 0, "force")
+        self.moments = self._row(_MOMENTS, "torque", 3, "moment")
         self.payload = QuantityBox("mass", preferences, "Payload at the tool")
         self.payload.setObjectName("payload")
         self.payload.set_range(0.0, 1e4)
-        self.payload.quantity_changed.connect(stage.load.set_payload)
-        stage.load.changed.connect(self._refresh_if_seen)
+        self.payload.quantity_changed.connect(self._take_payload)
+        self.payload.editingFinished.connect(session.end_stroke)
+        self.payload.refused.connect(self._complain)
         self.weight = QCheckBox("The arm holds its own weight too")
         self.weight.setObjectName("own_weight")
-        self.weight.toggled.connect(lambda on: self._take(own_weight=on))
+        self.weight.toggled.connect(self._take_weight)
         self.clear = button("wrench_clear", "No force", "Take the wrench and the payload away", self._clear)
         self.model = TorqueModel(session.robot, preferences, self.catch_up)
         self.table = torque_table(self.model)
@@ -114,9 +102,11 @@ class ForcesPage(InspectPage):
 
     # --- construction ----------------------------------------------------------------------------------------------
 
-    def _row(self, names: tuple[str, ...], kind: Kind, first: int) -> NumberRow:
+    def _row(self, names: tuple[str, ...], kind: Kind, first: int, what: str) -> NumberRow:
         row = NumberRow("wrench", names, (kind,) * 3, self._preferences, "Wrench")
-        row.edited.connect(lambda _: self._take_row(first, row.values))
+        text = f"Set the {what} at the tool"
+        row.edited.connect(lambda _: self._take(text, self.load.with_wrench(first, row.values), what))
+        row.finished.connect(self._session.end_stroke)
         row.refused.connect(self._complain)
         return row
 
@@ -161,41 +151,49 @@ class ForcesPage(InspectPage):
 
     # --- what is asked ---------------------------------------------------------------------------------------------
 
+    @property
+    def load(self) -> Load:
+        """What the arm is asked to hold."""
+        return self._session.experiment.load
+
+    def concerns(self, before: Experiment, after: Experiment) -> bool:
+        """The load counts too."""
+        return super().concerns(before, after) or after.load is not before.load
+
     def set_seen(self, seen: bool) -> None:
         """The arrow can be taken hold of only while the page is seen."""
         super().set_seen(seen)
         self.drag.switch(seen)
 
-    def _take(self, **changes: object) -> None:
-        self.pull = replace(self.pull, **changes)  # type: ignore[arg-type]  # names and values come from this page alone
-        self.refresh()
+    def _take(self, text: str, load: Load, merge: str = "") -> None:
+        """Another load, undoably."""
+        self._session.edit(text, self._session.experiment.with_load(load), merge=f"load {merge}" if merge else "")
 
-    def _take_row(self, first: int, values: FloatArray) -> None:
-        wrench = np.array(self.pull.wrench)
-        wrench[first : first + 3] = values
-        self._take(wrench=wrench)
+    def _take_payload(self, mass: float) -> None:
+        self._take("Set the payload", replace(self.load, payload=mass), "payload")
+
+    def _take_weight(self, on: bool) -> None:
+        self._take(f"{'Count' if on else 'Leave out'} the arm's own weight", replace(self.load, own_weight=on))
 
     def _take_axes(self) -> None:
         """The same wrench, seen in other axes."""
-        axes = self.axes.currentData()
-        if axes != self.pull.axes:
-            R = self._R.T if axes == "tool" else self._R
-            wrench = np.concatenate([R @ self.pull.wrench[:3], R @ self.pull.wrench[3:]])
-            self._take(wrench=wrench, axes=axes)
+        axes = next(axes for axes in get_args(WrenchAxes) if axes == self.axes.currentData())
+        if axes != self.load.axes:
+            self._take(f"Write the wrench {AXES[axes]}", self.load.in_axes(axes, self._R))
 
     def _clear(self) -> None:
-        self._stage.load.set_payload(0.0)
-        self._take(wrench=np.zeros(6))
+        if np.any(self.load.wrench) or self.load.payload:
+            self._take("Take the load away", replace(self.load, wrench=np.zeros(6), payload=0.0))
 
     def _on_pulled(self, force: FloatArray) -> None:
         """The arrow's end has been dragged there."""
-        wrench = np.array(self.pull.wrench)
-        wrench[:3] = self._R.T @ force if self.pull.axes == "tool" else force
-        self._take(wrench=wrench)
+        force = self._R.T @ force if self.load.axes == "tool" else force
+        self._take("Pull at the tool", self.load.with_wrench(0, force), "pull")
 
     def _on_released(self, given_up: bool) -> None:
-        if given_up:
-            self.pull = self._before_drag
+        if given_up and self.load is not self._before_drag:
+            self._take("Pull at the tool", self._before_drag, "pull")
+        self._session.end_stroke()
         self.refresh()
 
     def _complain(self, sentence: str) -> None:
@@ -212,8 +210,8 @@ class ForcesPage(InspectPage):
         self.message.hide()
         T, J = pose_and_jacobian(robot, q)
         self._R = T[:3, :3]
-        wrench = self.pull.in_base(self._R)
-        carried = payload_wrench(self._stage.load.payload, STANDARD_GRAVITY)
+        wrench = self.load.in_base(self._R)
+        carried = payload_wrench(self.load.payload, STANDARD_GRAVITY)
         weight = gravity_torques(robot, q) if self._weighs() else np.zeros(robot.dof)
         pushed = J.T @ (wrench + carried)
         self._torques = pushed + weight
@@ -225,7 +223,7 @@ class ForcesPage(InspectPage):
         self._place_arrows(robot, T, wrench)
 
     def _weighs(self) -> bool:
-        return self.pull.own_weight and bool(self._session.robot.masses)
+        return self.load.own_weight and bool(self._session.robot.masses)
 
     def _take_robot(self, robot: Robot) -> None:
         self._robot = robot
@@ -237,20 +235,23 @@ class ForcesPage(InspectPage):
         self.legend.setText(legend(self.model.rows))
 
     def _show_boxes(self) -> None:
-        self.forces.show_values(self.pull.wrench[:3])
-        self.moments.show_values(self.pull.wrench[3:])
-        self.payload.set_quantity(self._stage.load.payload)
-        self.hanging.setVisible(self._stage.load.payload > 0.0)
+        select(self.axes, self.load.axes)
+        self.forces.show_values(self.load.wrench[:3])
+        self.moments.show_values(self.load.wrench[3:])
+        self.payload.set_quantity(self.load.payload)
+        self.hanging.setVisible(self.load.payload > 0.0)
+        with QSignalBlocker(self.weight):
+            self.weight.setChecked(self.load.own_weight)
         show_weight(self.table, self._weighs())
 
     def _show_largest(self, robot: Robot, q: FloatArray, held: FloatArray) -> None:
-        asked = direction_vector(self.directions.currentData(), self.pull.wrench)
+        asked = direction_vector(self.directions.currentData(), self.load.wrench)
         found, pure_moment = None, False
         if asked is not None:
             pure_moment = not np.any(asked[:3])
-            in_base = replace(self.pull, wrench=asked).in_base(self._R)
+            in_base = replace(self.load, wrench=asked).in_base(self._R)
             found = largest_force(robot, q, in_base, ratings(robot), holding=held)
-        besides = besides_text(self._stage.load.payload, self._weighs(), self._preferences)
+        besides = besides_text(self.load.payload, self._weighs(), self._preferences)
         self.largest.setText(largest_text(robot, found, pure_moment, self._preferences, besides))
 
     # --- the scene -------------------------------------------------------------------------------------------------
@@ -260,15 +261,15 @@ class ForcesPage(InspectPage):
         if self.drag.held and self._arrows is not None:
             scale = self._arrows.scale  # the hand feels the same newtons a millimetre all the way
         else:
-            self._before_drag = self.pull
-            largest = max(float(np.linalg.norm(force)), self._stage.load.payload * STANDARD_GRAVITY)
+            self._before_drag = self.load
+            largest = max(float(np.linalg.norm(force)), self.load.payload * STANDARD_GRAVITY)
             scale = arrow_scale(robot.size, max(largest, _typical_force(robot)))
         kinds: tuple[Kind, Kind] = ("force", moment_kind(robot))
         force_text, moment_text = (
             format_quantity(float(np.linalg.norm(part)), kind, self._preferences) if np.any(part) else ""
             for part, kind in zip((force, moment), kinds, strict=True)
         )
-        mass = self._stage.load.payload
+        mass = self.load.payload
         mass_text = format_quantity(mass, "mass", self._preferences)
         weight = mass * STANDARD_GRAVITY
         self._arrows = WrenchArrows(

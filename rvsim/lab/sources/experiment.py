@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from rvsim.experiment import Experiment, LineTask, TrajectoryTask, limit_violations
+from rvsim.experiment import Experiment, LineTask, Load, TrajectoryTask, limit_violations
 from rvsim.motion.trajectory import Law
 from rvsim.robot.arrays import FloatArray
 
@@ -26,14 +26,6 @@ class Move:
     law: Law
 
 
-@dataclass(frozen=True)
-class Pull:
-    """A wrench (6,) at the tool [N, N m], in the axes of the base or of the tool."""
-
-    wrench: tuple[float, ...]
-    axes: Literal["base", "tool"] = "base"
-
-
 @dataclass(frozen=True, eq=False)
 class Setup:
     """How to see an experiment; what is None or empty stays as it is.
@@ -46,7 +38,7 @@ class Setup:
         ignore_limits: as the source does; poses outside the limits are taken in any case.
         path_seconds: how long the path takes [s], as `Experiment` has it.
         erratum: the key of the erratum that the page of the sources shows.
-        pull: what the page of the forces is asked.
+        load: what the tool pulls at and carries.
         lab: the page of the laboratory.
         move: what is played, with its curves.
     """
@@ -59,7 +51,7 @@ class Setup:
     ignore_limits: bool = False
     path_seconds: float | None = None
     erratum: str = ""
-    pull: Pull | None = None
+    load: Load | None = None
     lab: LabPage = ""
     move: Move | None = None
 
@@ -75,6 +67,7 @@ class Setup:
             target=None,
             law="quintic" if self.move is None else self.move.law,
             path_seconds=self.path_seconds,
+            load=self.load or before.load,
         )
 
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from rvsim.experiment import TrajectoryTask
+import numpy as np
+
+from rvsim.experiment import NO_LOAD, Load, TrajectoryTask
 from rvsim.lab.sources.arms import degrees
 from rvsim.lab.sources.claims import GRAVITY_002, STRETCHED_41, TEXTBOOK_ARMS, UPRIGHT_001
-from rvsim.lab.sources.experiment import Move, Pull, Setup, SourceExperiment
+from rvsim.lab.sources.experiment import Move, Setup, SourceExperiment
 from rvsim.lab.sources.source_004_kinematics import TEXT_POSE
 
 _ARMS = {"001": "rv-1a", "002": "ur5e", "003": "rrrp", "004": "al5b"}
 _FIRST_GRAVITY, _SECOND_GRAVITY = (degrees(*pose) for pose in GRAVITY_002)
 _ZERO = (0.0,) * 5
 _FORTY = degrees(40.0, 0.0, 0.0, 0.0, 0.0)
-_ALONG_THE_TOOL = Pull((0.0, 0.0, 10.0, 0.0, 0.0, 0.0), "tool")  # [N]
+_ALONG_THE_TOOL = Load(np.array([0.0, 0.0, 10.0, 0.0, 0.0, 0.0]), "tool")  # [N]
 _WORKSPACES = {
     "articulated": "The articulated arm (RRR)",
     "spherical": "The spherical arm (RRP)",
@@ -42,9 +44,9 @@ def _drawn(name: str, **more: str) -> Setup:
 
 EXPERIMENTS_002: tuple[str | SourceExperiment, ...] = (
     _entry("002-gravity-1", "Table", "Masses: the arm stretched out level", "What the joints hold by the arm's own "
-           "weight; the shoulder holds the most.", Setup("dynamics", _FIRST_GRAVITY)),
+           "weight; the shoulder holds the most.", Setup("dynamics", _FIRST_GRAVITY, load=NO_LOAD)),
     _entry("002-gravity-2", "Table", "Masses: the arm bent", "The same arm with the elbow up: the shoulder holds a "
-           "third less.", Setup("dynamics", _SECOND_GRAVITY)),
+           "third less.", Setup("dynamics", _SECOND_GRAVITY, load=NO_LOAD)),
     "002-x",
     "002-z2",
     _entry("002-code-1", "Code 1", "The points of the ellipse", "184 points at even angles, which is not evenly apart: "
@@ -94,7 +96,7 @@ EXPERIMENTS_004: tuple[str | SourceExperiment, ...] = (
     "004-4.16",
     _entry("004-4.24", "(4.24) and (4.25)", "The torques that hold a force", "10 N along the tool's own axis pass "
            "through the wrist: joint 4 holds nothing. With the tool's F and the base's J it would.",
-           Setup("forces", TEXT_POSE, pull=_ALONG_THE_TOOL), ("004-4.24",)),
+           Setup("forces", TEXT_POSE, load=_ALONG_THE_TOOL), ("004-4.24",)),
     _entry("004-cubic", "Section 5.1", "A cubic from 0 to 40° in 2 s", "Place and speed are continuous, the "
            "acceleration begins at 60 °/s² at once.", Setup("path", _ZERO, move=Move(_FORTY, 2.0, "cubic"))),
     _entry("004-quintic", "Figure 5.4", "A quintic from 0 to 40° in 2 s", "Place, speed and acceleration are "

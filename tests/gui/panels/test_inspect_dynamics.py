@@ -7,6 +7,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QLineEdit, QTableView
 
 from rvsim.dynamics import dynamics_parts, gravity_torques, kinetic_energy, mass_matrix
+from rvsim.experiment import Load
 from rvsim.gui.app import build_window
 from rvsim.gui.panels.inspect_dynamics import DynamicsPage
 from rvsim.gui.quantity_box import QuantityBox
@@ -54,7 +55,7 @@ def test_gravity_and_payload_count(page_of):
     session = page._session
     expected = gravity_torques(session.robot, session.q, gravity=1.62, payload=1.2)
     np.testing.assert_allclose(page.model.values[:, 0], expected, atol=1e-12)
-    page._stage.load.set_payload(0.5)  # on another page
+    session.edit("Set", session.experiment.with_load(Load(payload=0.5)))  # on another page
     assert page.payload.quantity == 0.5
     enter(page, "gravity", 5.0)
     assert page.place.currentText() == "own value"

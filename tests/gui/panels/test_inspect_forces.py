@@ -9,10 +9,12 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QTableView
 
 from rvsim.dynamics import gravity_torques, joint_torques, wrench_in_base
+from rvsim.files import load_robot
 from rvsim.gui.app import build_window
 from rvsim.gui.panels.inspect_forces import ForcesPage
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.kinematics import forward_kinematics
+from rvsim.motion import joint_move
 
 POSE = np.radians([30.0, 40.0, -50.0, 20.0, 60.0])
 
@@ -64,10 +66,10 @@ def test_other_axes_show_the_same_wrench_in_other_numbers(page_of):
     np.testing.assert_allclose(torques(page), before, atol=1e-12)
     session = page._session
     np.testing.assert_allclose(
-        wrench_in_base(session.robot, session.q, page.pull.wrench), [0, 0, 10, 0, 0, 0], atol=1e-9
+        wrench_in_base(session.robot, session.q, page.load.wrench), [0, 0, 10, 0, 0, 0], atol=1e-9
     )
     assert session.move_to(np.zeros(5), "Zero")  # now the wrench turns with the tool
-    in_base = wrench_in_base(session.robot, session.q, page.pull.wrench)
+    in_base = wrench_in_base(session.robot, session.q, page.load.wrench)
     np.testing.assert_allclose(torques(page), joint_torques(session.robot, session.q, in_base), atol=1e-12)
 
 
@@ -132,7 +134,7 @@ def test_dragging_the_arrows_end_changes_the_force_in_the_plane_that_faces_the_e
     assert drag.lit_now
     assert drag.press(start)
     drag.drag(start + QPointF(40.0, -60.0), Qt.KeyboardModifier.NoModifier)
-    change = page.pull.wrench[:3] - [60.0, 0.0, 0.0]
+    change = page.load.wrench[:3] - [60.0, 0.0, 0.0]
     assert np.linalg.norm(change) > 5.0
     assert abs(change @ normal) < 1e-9 * np.linalg.norm(change)
     moved = pixel_of(page, page._arrows.tip)
@@ -146,11 +148,100 @@ def test_a_drag_pulls_a_force_out_of_the_tool_and_escape_takes_it_back(page_of):
     at = pixel_of(page, forward_kinematics(page._session.robot, page._session.q)[:3, 3])
     assert page.drag.press(at)
     page.drag.drag(at + QPointF(0.0, -80.0), Qt.KeyboardModifier.ControlModifier)
-    assert np.any(page.pull.wrench)
-    np.testing.assert_array_equal(page.pull.wrench, np.round(page.pull.wrench))
+    assert np.any(page.load.wrench)
+    np.testing.assert_array_equal(page.load.wrench, np.round(page.load.wrench))
     assert page.drag.key(Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier, False)
-    assert not np.any(page.pull.wrench)
+    assert not np.any(page.load.wrench)
     assert not page.drag.press(at + QPointF(0.0, -300.0))
+
+
+def test_a_drag_is_one_undo_step_and_one_that_is_given_up_is_none(page_of):
+    page = page_of("rv-m1")
+    stack = page._session.undo_stack
+    at = pixel_of(page, page._arrows.tip)
+    for keep in (True, False):
+        assert page.drag.press(at)
+        for step in range(5):
+            page.drag.drag(at + QPointF(10.0 * step, -80.0), Qt.KeyboardModifier.NoModifier)
+        if keep:
+            at = pixel_of(page, page._arrows.tip)
+            pulled = page.load
+            page.drag.release()
+        else:
+            page.drag.key(Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier, False)
+    assert page.load is pulled
+    assert stack.count() == 1
+    assert stack.undoText() == "Pull at the tool"
+    stack.undo()
+    assert not np.any(page.load.wrench)
+    assert page.forces.boxes[2].quantity == 0.0
+    np.testing.assert_allclose(torques(page), 0.0)
+
+
+def test_what_is_entered_can_be_undone_one_by_one_and_the_boxes_follow(page_of):
+    page = page_of("ur5e")
+    stack = page._session.undo_stack
+    enter(page, "wrench_fz", 20.0)
+    page.forces.finished.emit()
+    enter(page, "wrench_mx", 3.0)
+    enter(page, "payload", 2.0)
+    page.weight.click()
+    page.axes.setCurrentIndex(page.axes.findData("tool"))
+    page.axes.activated.emit(page.axes.currentIndex())
+    page.clear.click()
+    page.clear.click()  # nothing is left to take away
+    texts = [stack.text(index) for index in range(stack.count())]
+    assert texts == [
+        "Set the force at the tool",
+        "Set the moment at the tool",
+        "Set the payload",
+        "Count the arm's own weight",
+        "Write the wrench in tool axes",
+        "Take the load away",
+    ]
+    stack.setIndex(3)
+    assert (page.axes.currentData(), page.weight.isChecked(), page.payload.quantity) == ("base", False, 2.0)
+    stack.setIndex(1)
+    assert page.payload.quantity == 0.0
+    np.testing.assert_array_equal(page.forces.values, [0.0, 0.0, 20.0])
+    np.testing.assert_array_equal(page.moments.values, 0.0)
+
+
+def test_every_arm_keeps_its_own_load(page_of):
+    page = page_of("rv-m1")
+    session = page._session
+    enter(page, "payload", 1.0)
+    first, other = session.robot, load_robot("ur5e")
+    session.use_robot(other)
+    assert page.payload.quantity == 0.0
+    enter(page, "payload", 3.0)
+    session.use_robot(first)
+    assert page.payload.quantity == 1.0
+    session.use_robot(other)
+    assert page.payload.quantity == 3.0
+
+
+def test_the_arm_can_be_pulled_at_while_it_moves_and_that_is_one_undo_step(page_of):
+    page = page_of("rv-m1")
+    session, motion, stack = page._session, page._stage.motion, page._session.undo_stack
+    home = session.q
+    motion.load(joint_move(session.robot, home, home + 0.4, seconds=2.0), "Move")
+    motion.play()
+    motion.advance(0.1)
+    began = session.q
+    at = pixel_of(page, page._arrows.tip)
+    assert page.drag.press(at)
+    for step in range(1, 6):
+        page.drag.drag(at + QPointF(10.0 * step, -40.0), Qt.KeyboardModifier.NoModifier)
+        motion.advance(0.05)
+    page.drag.release()
+    assert motion.player.playing
+    motion.advance(0.05)
+    assert [stack.text(index) for index in range(stack.count())] == ["Move", "Pull at the tool", "Move"]
+    stack.undo()
+    stack.undo()
+    np.testing.assert_array_equal(session.q, began)
+    assert not np.any(page.load.wrench)
 
 
 def test_the_payload_hangs_apart_from_the_arrow_of_the_force(page_of):
@@ -160,7 +251,7 @@ def test_the_payload_hangs_apart_from_the_arrow_of_the_force(page_of):
     assert page.drag.press(tip)
     page.drag.drag(tip, Qt.KeyboardModifier.NoModifier)
     page.drag.release()
-    np.testing.assert_allclose(page.pull.wrench, 0.0, atol=1e-6)
+    np.testing.assert_allclose(page.load.wrench, 0.0, atol=1e-6)
     np.testing.assert_allclose(page._arrows.force, 0.0, atol=1e-6)
     arrow = next(item for item in page._stage._layers["inspect_forces"] if ".payload" in item.key)
     assert np.ptp(arrow.points[:, 2]) > 0.0
