@@ -17,7 +17,8 @@
     ├── PoseError              a 4 × 4 matrix that is no pose of a tool
     ├── SettingError           a setting of a solver outside what it may be
     ├── NoClosedFormError      an arm whose inverse kinematics has no closed form here
-    └── NoMassDataError        dynamics asked of an arm without masses
+    ├── NoMassDataError        dynamics asked of an arm without masses
+    └── DeviceError            a port, a link or an arm on a wire that cannot be used, with what would help
 
 Ordinary outcomes ("out of reach") are values, never exceptions.
 """
@@ -188,3 +189,17 @@ class NoMassDataError(RvsimError):
     def __init__(self, robot: str) -> None:
         self.robot = robot
         super().__init__(f"{robot} has no mass data: add a mass and a centre of mass for each link to its robot file.")
+
+
+class DeviceError(RvsimError, OSError):
+    """A port, a link or an arm on a wire that cannot be used.
+
+    Args:
+        port: its name or URL.
+        what: what is wrong, a part of a sentence without a full stop.
+        remedy: what would help, a whole sentence (may be empty).
+    """
+
+    def __init__(self, port: str, what: str, remedy: str = "") -> None:
+        self.port, self.what, self.remedy = port, what, remedy
+        super().__init__(f"{port}: {what}. {remedy}".rstrip())
