@@ -14,7 +14,7 @@ from rvsim.robot.robot import LinkMass, Robot
 
 MassKey = Literal["mass", "x", "y", "z", "xx", "yy", "zz"]
 MASS_KEYS: tuple[MassKey, ...] = get_args(MassKey)
-_BY_HAND = "entered by hand"
+BY_HAND = "entered by hand"  # the source of a number of the user's own
 _GUESSED = "a guess to start from: 1 kg half-way along the link"
 _GUESSED_MASS = 1.0  # [kg]
 _LEAST_INERTIA = 1e-3  # [kg m²]
@@ -54,11 +54,11 @@ def with_guessed_masses(robot: Robot) -> Robot:
 
 
 def _massless(robot: Robot) -> tuple[LinkMass, ...]:
-    return (LinkMass(0.0, np.zeros(3), np.zeros((3, 3)), True, _BY_HAND),) * robot.dof
+    return (LinkMass(0.0, np.zeros(3), np.zeros((3, 3)), True, BY_HAND),) * robot.dof
 
 
 def _changed(link: LinkMass, key: MassKey, value: float) -> LinkMass:
-    marked = replace(link, assumed=True, source=_BY_HAND)
+    marked = replace(link, assumed=True, source=BY_HAND)
     if key == "mass":
         return replace(marked, mass=value)
     axis = "xyz".index(key[0])

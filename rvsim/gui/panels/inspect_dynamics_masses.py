@@ -7,18 +7,11 @@ from typing import Any, NamedTuple
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
 from PySide6.QtGui import QFont, QGuiApplication
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QHeaderView,
-    QLineEdit,
-    QStyledItemDelegate,
-    QStyleOptionViewItem,
-    QTableView,
-    QWidget,
-)
+from PySide6.QtWidgets import QHeaderView, QTableView
 
 from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate_in
+from rvsim.gui.panels.number_cells import make_editable
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot, plain_table
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, Kind, display, format_number, length_kind, without_unit
@@ -173,23 +166,6 @@ class MassModel(QAbstractTableModel):
         return f"{column.head} {display(mass_kind(self._robot, column.key), self._preferences).suffix.strip()}"
 
 
-class NumberDelegate(QStyledItemDelegate):
-    """Editors that fit into their cells."""
-
-    def createEditor(self, parent: QWidget, _option: QStyleOptionViewItem, index: Index) -> QWidget:
-        """A line without the padding of boxes that stand alone."""
-        line = QLineEdit(parent)
-        line.setObjectName("mass_cell_editor")
-        line.setAccessibleName(str(index.model().headerData(index.column(), Qt.Orientation.Horizontal)))
-        line.setAlignment(Qt.AlignmentFlag.AlignRight)
-        line.setStyleSheet("padding: 0 2px; min-height: 0; border-radius: 0;")
-        return line
-
-    def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, _index: Index) -> None:
-        """The whole cell."""
-        editor.setGeometry(option.rect)
-
-
 def mass_table(name: str, title: str, model: MassModel, columns: Iterable[int]) -> QTableView:
     """A view of some columns of the model."""
     table = plain_table(name, title, model)
@@ -197,11 +173,5 @@ def mass_table(name: str, title: str, model: MassModel, columns: Iterable[int]) 
     for column in range(1 + len(COLUMNS)):
         table.setColumnHidden(column, column not in shown)
     table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
-    table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-    table.setEditTriggers(
-        QAbstractItemView.EditTrigger.DoubleClicked
-        | QAbstractItemView.EditTrigger.EditKeyPressed
-        | QAbstractItemView.EditTrigger.AnyKeyPressed
-    )
-    table.setItemDelegate(NumberDelegate(table))
+    make_editable(table, "mass_cell_editor")
     return table

@@ -14,6 +14,7 @@ from rvsim.experiment import Experiment, Load, WrenchAxes
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.panels.inspect_forces_ratings import Ratings
 from rvsim.gui.panels.inspect_forces_table import TorqueModel, fit_table, show_weight, torque_table
 from rvsim.gui.panels.inspect_forces_words import (
     AXES,
@@ -89,6 +90,7 @@ class ForcesPage(InspectPage):
         self.hanging.setText(HANGING)
         self.hanging.hide()
         self.largest.setObjectName("largest_force")
+        self.ratings = Ratings(session, preferences)
         self.equations = EquationsView(Typesetter(self))
         self.sources = SourcesButton("dynamics", self)
         makers = {"text": values_text, "NumPy": values_numpy, "LaTeX": values_latex}
@@ -142,6 +144,8 @@ class ForcesPage(InspectPage):
         column.addSpacing(6)
         column.addLayout(asked)
         column.addWidget(self.largest)
+        column.addSpacing(6)
+        column.addWidget(self.ratings)
         column.addSpacing(6)
         column.addWidget(self.equations)
         column.addWidget(note)
@@ -217,6 +221,7 @@ class ForcesPage(InspectPage):
         self._torques = pushed + weight
         self._show_boxes()
         fit_table(self.table)
+        self.ratings.settle()
         self.model.show_rows(robot, torque_rows(robot, pushed, weight))
         self._show_largest(robot, q, weight + J.T @ carried)
         self.equations.show_equations(torque_equations(J, wrench + carried, pushed))
@@ -233,6 +238,7 @@ class ForcesPage(InspectPage):
         self.weight.setVisible(bool(robot.masses))
         self.model.show_rows(robot, torque_rows(robot, np.zeros(robot.dof), np.zeros(robot.dof)))
         self.legend.setText(legend(self.model.rows))
+        self.ratings.show_robot(robot)
 
     def _show_boxes(self) -> None:
         select(self.axes, self.load.axes)

@@ -14,6 +14,7 @@ from rvsim.gui.quantities import format_quantity, moment_kind, torque_kind
 from rvsim.lab.worked import Equation
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
+from rvsim.robot.rating_edits import RatingOrigin, rating_origin
 
 DIRECTIONS: Mapping[str, str] = {
     "wrench": "the wrench above",
@@ -23,25 +24,31 @@ AXES: Mapping[str, str] = {"base": "in base axes", "tool": "in tool axes"}
 HANGING = (
     "The payload pulls down at the tool; to hold it the tool pushes up with m g, which is added to F in τ = Jᵀ F below."
 )
+_ORIGINS: Mapping[RatingOrigin, str] = {"source": "", "assumed": ", an assumed rating", "yours": ", your rating"}
 _DECIMALS = 2
 _UNIT_VECTORS = dict(zip("xyz", np.eye(3), strict=True))
 
 
 class TorqueRow(NamedTuple):
-    """One joint of the table [N m, N]; rating nan where none is known."""
+    """One joint of the table [N m, N]; rating nan and no origin where none is known."""
 
     name: str
     color: str
     from_wrench: float
     from_weight: float
     rating: float
-    rating_assumed: bool
+    origin: RatingOrigin | None
     rating_source: str
 
     @property
     def total(self) -> float:
         """What the drive has to give."""
         return self.from_wrench + self.from_weight
+
+    @property
+    def rating_assumed(self) -> bool:
+        """Whether nobody answers for the rating."""
+        return self.origin == "assumed"
 
     @property
     def share(self) -> float:
@@ -54,7 +61,7 @@ def torque_rows(robot: Robot, from_wrench: FloatArray, from_weight: FloatArray) 
     rows = []
     for joint, pushed, held in zip(robot.joints, from_wrench.tolist(), from_weight.tolist(), strict=True):
         known = joint.max_torque
-        rating = (known.value, known.assumed, known.source) if known else (math.nan, False, "")
+        rating = (known.value, rating_origin(known), known.source) if known else (math.nan, None, "")
         rows.append(TorqueRow(joint.name, joint.color, pushed, held, *rating))
     return tuple(rows)
 
@@ -88,14 +95,14 @@ def largest_text(
     if found.joint is None:
         known = [joint.max_torque for joint in robot.joints if joint.max_torque]
         if not known:
-            return "No joint of this arm has a torque rating: its robot file may give some (max_torque)."
+            return "No joint of this arm has a torque rating: enter some below."
         return "No bound: at this pose no rated joint has a lever in that direction, the bearings hold it all."
     joint = robot.joints[found.joint]
     rating = joint.max_torque
     assert rating is not None, "only a rated joint limits"
     limit = format_quantity(rating.value, torque_kind(robot, found.joint), preferences)
     name = f"J{found.joint + 1} {joint.name}"
-    assumed = ", an assumed rating" if rating.assumed else ""
+    assumed = _ORIGINS[rating_origin(rating)]
     if found.force == 0.0:
         with_it = f" with {besides}" if besides else ""
         return f"None: {name} is at its {limit} already{with_it}{assumed}."
@@ -110,7 +117,7 @@ def rating_text(row: TorqueRow, robot: Robot, joint: int, preferences: Preferenc
     total = f"J{joint + 1} {row.name}: {format_quantity(row.total, kind, preferences)}"
     if math.isnan(row.rating):
         return f"{total}. No rating is known."
-    origin = "assumed: " if row.rating_assumed else ""
+    origin = {"assumed": "assumed: ", "yours": "yours, "}.get(row.origin or "", "")
     rating = format_quantity(row.rating, kind, preferences)
     return f"{total}, {share_text(row)} of {rating} ({origin}{row.rating_source or 'robot file'})."
 

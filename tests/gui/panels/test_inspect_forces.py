@@ -102,6 +102,63 @@ def test_the_largest_force_names_the_joint_that_limits_it(page_of):
     assert robot.joints[3].max_torque.value == 2.0
 
 
+def rate(page, joint, text):
+    model = page.ratings.model
+    return model.setData(model.index(joint, 1), text)
+
+
+def origins(page):
+    model = page.ratings.model
+    return [model.index(joint, 2).data() for joint in range(model.rowCount())]
+
+
+def test_a_typed_rating_goes_to_a_copy_and_bars_and_largest_force_follow(page_of):
+    page = page_of("rv-m1", np.zeros(5))
+    session = page._session
+    enter(page, "wrench_fz", 10.0)
+    assert origins(page) == ["assumed"] * 5
+    assert rate(page, 3, "2*1.5")
+    assert session.robot.name == "my-rv-m1"
+    assert session.undo_stack.undoText() == "Edit the torque rating of J4 of my RV-M1"
+    assert page.largest.text() == f"{3.0 / 0.072:.1f} N: then J4 wrist pitch reaches its 3.00 N m, your rating."
+    assert page.model.index(3, 4).data() == "24 %"
+    assert page.model.index(1, 4).data().startswith("≈ ")
+    assert origins(page) == ["assumed"] * 3 + ["yours"] + ["assumed"]
+    assert "yours, entered by hand" in page.model.index(3, 4).data(Qt.ItemDataRole.ToolTipRole)
+    session.undo_stack.undo()
+    assert session.robot.name == "rv-m1"
+    assert "reaches its 2.00 N m" in page.largest.text()
+    np.testing.assert_array_equal(page.load.wrench[:3], [0.0, 0.0, 10.0])
+
+
+@pytest.mark.parametrize(
+    ("text", "word"), [("0", "above 0"), ("-3", "above 0"), ("nan", "nan"), ("1/0", "1/0"), ("strong", "strong")]
+)
+def test_a_rating_that_no_drive_has_is_refused_with_a_sentence(page_of, text, word):
+    page = page_of("rv-m1")
+    rate(page, 1, text)
+    assert not page.ratings.message.isHidden()
+    assert word in page.ratings.message.text()
+    assert page._session.undo_stack.count() == 0
+    rate(page, 1, "25")
+    assert page.ratings.message.isHidden()
+
+
+def test_an_arm_without_ratings_can_be_given_some_and_a_joint_none(page_of):
+    page = page_of("rrrp")
+    assert origins(page) == ["–"] * 4
+    assert "No source gives" in page.ratings.note.text()
+    page.ratings.guess.click()
+    assert page._session.robot.name == "my-rrrp"
+    assert page.ratings.guess.isHidden()
+    assert origins(page) == ["assumed"] * 4
+    assert page.ratings.model.index(3, 1).data() == "100.0 N"
+    assert "reaches its" in page.largest.text()
+    rate(page, 3, "")
+    assert origins(page) == ["assumed"] * 3 + ["–"]
+    assert page.model.index(3, 4).data() == "–"
+
+
 def test_a_payload_leaves_less_for_the_largest_force(page_of):
     page = page_of("rv-m1", np.zeros(5))
     enter(page, "payload", 1.0)
