@@ -26,6 +26,7 @@ def _add_track_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--samples", type=_samples, help="the number of points")
     parser.add_argument("--height-mm", metavar="z", help="of the letter divided by 40")
     parser.add_argument("--orientation", choices=get_args(PathOrientation), help="of the tool")
+    parser.add_argument("--plane", metavar="level|facing|sideways", help="that a flat shape (circle, star, …) lies in")
     add_near(parser)
     parser.add_argument("--ignore-limits", action="store_true", help="leave the joint limits out of account")
     parser.add_argument("--csv", type=output_file, metavar="FILE", help="write the joints, a row a point")
@@ -55,6 +56,7 @@ def _track(options: argparse.Namespace) -> int:
         start=typed_lengths(robot, "--from-mm", options.from_mm, "xyz"),
         end=typed_lengths(robot, "--to-mm", options.to_mm, "xyz"),
         q=near,
+        plane=options.plane,
         **({} if height is None else {"height": float(height[0])}),
     )
     tracking = track(robot, path, near=near, ignore_limits=options.ignore_limits)

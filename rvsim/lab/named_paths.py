@@ -185,6 +185,7 @@ def named_path(
     start: ArrayLike | None = None,
     end: ArrayLike | None = None,
     q: ArrayLike | None = None,
+    plane: str | None = None,
 ) -> Path:
     """A path by its name, or through the points of a CSV file (mm, or units as the arm has) if it ends in ".csv".
 
@@ -197,16 +198,19 @@ def named_path(
         height: of the letter divided by 40, whose source gives none [m].
         start, end: (3,) of the line [m]; None for those of the arm's first preset.
         q: (n,) the pose whose orientation "keep" keeps; None for home.
+        plane: of a flat shape, "level", "facing" (upright, facing the arm) or "sideways"; None for the shape's own.
 
     Raises:
-        UnknownNameError: no such path or orientation.
+        UnknownNameError: no such path, orientation or plane.
         PathFileError: the file cannot be understood.
         OSError: the file cannot be read.
     """
+    if plane is not None:
+        return _shape(name, robot, samples, _or_own(orientation, "source"), q, plane)
     if name.lower().endswith(".csv"):
         return oriented(robot, _from_file(name, robot), _or_own(orientation, "free"), None, q)
     if name in SHAPE_KINDS and name not in _BY_NAME:
-        return _shape(name, robot, samples, _or_own(orientation, "source"), q)
+        return _shape(name, robot, samples, _or_own(orientation, "source"), q, plane)
     entry = path_entry(name)
     points = entry.draw(_Wish(robot, samples, height, start, end))
     path = Path(entry.name, points, title=entry.title, notes=entry.citation)
@@ -229,10 +233,19 @@ def _own_orientation(entry: NamedPath, robot: Robot) -> PathOrientation:
     return "source" if entry.arms else line_presets(robot)[0].orientation
 
 
-def _shape(name: str, robot: Robot, samples: int | None, orientation: PathOrientation, q: ArrayLike | None) -> Path:
-    from rvsim.lab.shape_paths import sampled, task_path  # which places paths of sources too, by this module
+def _shape(
+    name: str,
+    robot: Robot,
+    samples: int | None,
+    orientation: PathOrientation,
+    q: ArrayLike | None,
+    plane: str | None,
+) -> Path:
+    from rvsim.lab.shape_paths import in_plane, sampled, task_path  # which places paths of sources too, by this module
 
-    return task_path(robot, sampled(robot, TrajectoryTask(name, orientation), samples), q)
+    task = TrajectoryTask(name, orientation)
+    laid = task if plane is None else in_plane(robot, task, plane)
+    return task_path(robot, sampled(robot, laid, samples), q)
 
 
 def _from_file(name: str, robot: Robot) -> Path:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rvsim.errors import ExpressionError, FormulaError, LetterError, TooManyPointsError
+from rvsim.errors import ExpressionError, FormulaError, LetterError, TooManyPointsError, UnknownNameError
 from rvsim.experiment import SHAPE_KINDS, Placement, Shape, TrajectoryTask
 from rvsim.experiment.shapes import (
     ArcShape,
@@ -29,6 +29,7 @@ from rvsim.expressions import evaluate_formula
 from rvsim.lab.lines import line_presets
 from rvsim.lab.named_paths import named_path
 from rvsim.lab.orientations import Wanted, oriented
+from rvsim.lab.planes import PLANES, laid
 from rvsim.motion import Path, shapes
 from rvsim.motion.lettering import text_strokes
 from rvsim.motion.shapes import Drawing
@@ -205,6 +206,9 @@ SHAPES: dict[str, ShapeKind] = {
 }
 
 
+FLAT_SHAPES = tuple(name for name, kind in SHAPES.items() if not kind.placed)
+
+
 def is_shape(task: TrajectoryTask) -> bool:
     """Whether the task's path is a shape, not one of a source or a file."""
     return task.name in SHAPE_KINDS
@@ -227,12 +231,34 @@ def placement_of(robot: Robot, task: TrajectoryTask) -> Placement:
     """Where the task's path lies: its own placement; else as its source has it, or a shape by the arm's first line."""
     if task.placement is not None:
         return task.placement
-    if is_shape(task) and not SHAPES[task.name].placed:
+    if is_flat(task):
         middle, _ = _first_line(robot)
-        # Letters stand so that somebody who faces the arm can read them.
-        yaw = math.atan2(middle[1], middle[0]) + math.pi / 2 if task.name == "text" else 0.0
-        return Placement(middle, np.array([0.0, 0.0, yaw]))
+        return Placement(middle, np.array([0.0, 0.0, level_yaw(task.name, middle)]))
     return Placement(_unplaced(robot, task, None).middle, np.zeros(3))
+
+
+def level_yaw(name: str, middle: FloatArray) -> float:
+    """How a level shape is turned at first [rad]: letters so that somebody who faces the arm can read them."""
+    return math.atan2(middle[1], middle[0]) + math.pi / 2 if name == "text" else 0.0
+
+
+def in_plane(robot: Robot, task: TrajectoryTask, plane: str) -> TrajectoryTask:
+    """A flat shape's task in a plane of `PLANES`, its middle where it is.
+
+    Raises:
+        UnknownNameError: no such plane, or no flat shape.
+    """
+    if plane not in PLANES:
+        raise UnknownNameError("plane", plane, tuple(PLANES))
+    if not is_flat(task):
+        raise UnknownNameError("flat shape", task.name, FLAT_SHAPES)
+    where = placement_of(robot, task)
+    return placed_task(robot, task, laid(where, plane, level_yaw(task.name, where.center)))
+
+
+def is_flat(task: TrajectoryTask) -> bool:
+    """Whether it draws a shape in a plane that can be chosen."""
+    return task.name in FLAT_SHAPES
 
 
 def task_path(robot: Robot, task: TrajectoryTask, q: ArrayLike | None = None) -> Path:
@@ -259,13 +285,13 @@ def task_path(robot: Robot, task: TrajectoryTask, q: ArrayLike | None = None) ->
 
 def plane_normal(robot: Robot, task: TrajectoryTask) -> FloatArray | None:
     """(3,) of the plane that a flat shape is drawn in; None for other paths."""
-    if not is_shape(task) or SHAPES[task.name].placed:
+    if not is_flat(task):
         return None
     return np.asarray(rotation_from_rpy(placement_of(robot, task).rpy)[:, 2])
 
 
 def _placed(robot: Robot, task: TrajectoryTask, q: ArrayLike | None) -> Path:
-    if is_shape(task) and not SHAPES[task.name].placed:
+    if is_flat(task):
         kind, where = SHAPES[task.name], placement_of(robot, task)
         drawing = kind.draw(shape_of(robot, task))
         scaled = replace(drawing, points=where.scale * drawing.points)

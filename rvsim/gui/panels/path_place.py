@@ -1,4 +1,4 @@
-"""Where the path lies: its middle, how it is turned, how large it is, and whether it can be dragged in the scene."""
+"""Where the path lies: its middle, how large it is, and whether it can be dragged in the scene."""
 
 from __future__ import annotations
 
@@ -39,7 +39,6 @@ class PlaceRows(QWidget):
         self._task: TrajectoryTask | None = None
         self._where: Placement | None = None
         self.center: NumberRow | None = None
-        self.turn = NumberRow("path_turn", ("roll", "pitch", "yaw"), ("angle",) * 3, preferences, "Path turned by")
         self.scale = QuantityBox("number", preferences, "How many times as large")
         self.scale.setObjectName("path_scale")
         self.scale.set_range(1e-3, 1e3, "A path can be a thousandth to a thousand times as large.")
@@ -59,15 +58,11 @@ class PlaceRows(QWidget):
         size = QHBoxLayout()
         for widget in (self._size_label, self.scale, self.reset):
             size.addWidget(widget)
-        self._column.addWidget(self.turn)
         self._column.addLayout(size)
         self._column.addWidget(self.drag)
-        self.turn.edited.connect(lambda _: self._edit("path turn", rpy=self.turn.values))
         self.scale.quantity_changed.connect(lambda value: self._edit("path scale", scale=value))
-        for signal in (self.turn.refused, self.scale.refused):
-            signal.connect(session.warn)
-        for finished in (self.turn.finished, self.scale.editingFinished):
-            finished.connect(session.end_stroke)
+        self.scale.refused.connect(session.warn)
+        self.scale.editingFinished.connect(session.end_stroke)
         if drag is not None:
             drag.switched.connect(self.drag.setChecked)
 
@@ -79,17 +74,16 @@ class PlaceRows(QWidget):
             self._where = placement_of(experiment.robot, self._task)
         except (RvsimError, OSError):
             self._where = None
-        for widget in (self.center, self.turn, self.scale, self.reset):
+        for widget in (self.center, self.scale, self.reset):
             assert widget is not None
             widget.setEnabled(self._where is not None)
         if self._where is None or self.center is None:
             return
         self.center.show_values(self._where.center)
-        self.turn.show_values(self._where.rpy)
         self.scale.set_quantity(self._where.scale)
         self.reset.setEnabled(self._task.placement is not None)
         typed = self._task.name in _TABLES
-        for shown in (self.turn, self.scale, self._size_label, self.reset):
+        for shown in (self.scale, self._size_label, self.reset):
             shown.setVisible(not typed)
 
     def _make_center(self, experiment: Experiment) -> None:

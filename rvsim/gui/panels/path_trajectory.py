@@ -13,6 +13,7 @@ from rvsim.experiment import Experiment, Shape, TrajectoryTask
 from rvsim.experiment.shapes import FormulaShape, PointsShape
 from rvsim.gui.panels.path_orientation import OrientationRows
 from rvsim.gui.panels.path_place import PlaceRows
+from rvsim.gui.panels.path_plane import PlaneRows
 from rvsim.gui.panels.path_shape_formulas import FormulaRows
 from rvsim.gui.panels.path_shape_points import MOST_POINTS, PointRows
 from rvsim.gui.panels.path_shape_rows import ShapeRows
@@ -55,6 +56,9 @@ class TrajectorySection(QGroupBox):
         self.selector.activated.connect(self._on_chosen)
         self.turned = OrientationRows(session, preferences)
         self.orientation = self.turned.choice
+        self.lies = PlaneRows(session, preferences)
+        self.lies.edited.connect(self._put)
+        self.lies_label = QLabel()
         self.place = PlaceRows(session, preferences, drag)
         for rows in (self.turned, self.place):
             rows.edited.connect(self._put)
@@ -81,6 +85,8 @@ class TrajectorySection(QGroupBox):
         rows.addRow(self.notes)
         rows.addRow(self._editor_place)
         rows.addRow(self.plane_label, self.plane)
+        rows.addRow(self.lies_label, self.lies)
+        rows.addRow(self.lies.corners)
         rows.addRow("Middle", self.place)
         rows.addRow("Tool", self.turned)
         rows.addRow(self.reach)
@@ -95,6 +101,10 @@ class TrajectorySection(QGroupBox):
         self.notes.setVisible(bool(self.notes.text()))
         self._show_shape(robot, task)
         self.place.show_task(experiment)
+        self.lies.show_task(experiment)
+        self.lies_label.setText(self.lies.label)
+        for shown in (self.lies, self.lies_label):
+            shown.setVisible(bool(self.lies.label))
         self.turned.show_task(experiment)
         self.plane.set_kind(length_kind(robot))
         self.plane.set_quantity(task.height)

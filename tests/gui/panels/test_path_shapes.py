@@ -25,8 +25,10 @@ from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.tracker import PathTracker
 from rvsim.lab import drawings
-from rvsim.lab.shape_paths import placement_of
+from rvsim.lab.shape_paths import placement_of, plane_normal
+from rvsim.scene.gizmo import take_hold
 from rvsim.scene.primitives import Polyline
+from rvsim.spatial import rotation_from_rpy, transform
 
 
 class Desk(NamedTuple):
@@ -326,3 +328,71 @@ def test_the_tool_is_normal_to_a_tilted_plane_where_the_arm_can_and_else_it_is_s
         box.setValue(20.0)
         assert said in desk.reach
         assert ("normal" in desk.reach) == bool(said)
+
+
+def shown_plane(desk: Desk) -> str:
+    return desk.panel.findChild(QComboBox, "path_plane").currentData()
+
+
+def test_a_plane_is_a_click_and_the_handles_in_the_scene_turn_it_too(desk_of) -> None:
+    desk = desk_of("ur5e")
+    desk.choose("trajectory_selector", "star")
+    rows, undo = desk.panel.trajectory.lies, desk.session.undo_stack
+    assert shown_plane(desk) == "level"
+    assert rows.turn.isHidden()
+    desk.choose("path_plane", "facing")
+    np.testing.assert_allclose(np.ptp(desk.panel.preview.path.points[:, 0]), 0.0, atol=1e-12)
+    assert "Normal to the plane" in desk.session.sentences[-1][0]
+    assert undo.undoText() == "Upright, facing the arm"
+    drag = desk.panel.path_drag
+    drag.switch(True)
+    handle = next(handle for handle in drag._gizmo().handles if handle.kind == "ring" and handle.name == "x")
+    drag._began = desk.session.experiment, placement_of(desk.session.robot, desk.task)
+    turned = rotation_from_rpy(drag._began[1].rpy) @ rotation_from_rpy((0.3, 0.0, 0.0))
+    drag._grip = take_hold(drag._gizmo(), handle, drag._ray(QPointF(300, 200)))
+    drag._put(drag._placement(transform(turned, drag._began[1].center), drag._began[1]))
+    assert shown_plane(desk) == "tilted"
+    assert not rows.turn.isHidden()
+    drag.switch(False)
+    desk.choose("path_plane", "level")
+    assert shown_plane(desk) == "level"
+    np.testing.assert_allclose(np.ptp(desk.panel.preview.path.points[:, 2]), 0.0, atol=1e-12)
+    undo.undo()
+    assert shown_plane(desk) == "tilted"
+
+
+def test_a_plane_is_given_by_its_normal_or_by_three_points_also_of_the_tool(desk_of) -> None:
+    desk = desk_of("rv-m1")
+    desk.choose("trajectory_selector", "circle")
+    rows = desk.panel.trajectory.lies
+    desk.choose("path_plane", "normal")
+    desk.panel.findChild(QuantityBox, "path_normal_x").setValue(-1.0)
+    np.testing.assert_allclose(
+        plane_normal(desk.session.robot, desk.task), (-np.sqrt(0.5), 0.0, np.sqrt(0.5)), atol=1e-9
+    )
+    np.testing.assert_allclose(rows.normal.values, (-1.0, 0.0, 1.0))  # as typed
+    for axis in "xz":
+        desk.panel.findChild(QuantityBox, f"path_normal_{axis}").setValue(0.0)
+    assert "needs a length" in desk.session.sentences[-1][0]
+    desk.choose("path_plane", "points")
+    for number, point in enumerate(((300, 0, 100), (300, 100, 100), (300, 0, 200)), 1):
+        for axis, value in zip("xyz", point, strict=True):
+            desk.panel.findChild(QuantityBox, f"plane_point_{number}_{axis}").setValue(float(value))
+    np.testing.assert_allclose(plane_normal(desk.session.robot, desk.task), (1.0, 0.0, 0.0), atol=1e-9)
+    where = placement_of(desk.session.robot, desk.task)
+    np.testing.assert_allclose(where.center, (0.3, 0.1 / 3, 0.4 / 3), atol=1e-9)
+    desk.click("plane_take_3")
+    assert desk.panel.findChild(QuantityBox, "plane_point_3_x").value() == pytest.approx(482.0)
+    desk.panel.findChild(QuantityBox, "plane_point_3_x").setValue(300.0)
+    desk.panel.findChild(QuantityBox, "plane_point_3_z").setValue(100.0)
+    assert "lie on a line" in desk.session.sentences[-1][0]
+
+
+def test_what_is_no_flat_shape_has_no_plane_to_choose(desk_of) -> None:
+    desk = desk_of("rv-m1")
+    rows = desk.panel.trajectory.lies
+    for name, label in (("letter-board", "Turned"), ("formulas", "Turned"), ("points", ""), ("star", "Plane")):
+        desk.choose("trajectory_selector", name)
+        assert rows.label == label
+        assert rows.choice.isHidden() == (label != "Plane")
+        assert rows.isHidden() == (not label)
