@@ -60,7 +60,7 @@ def read_line(line: bytes) -> Command | Dropped | None:
         return Dropped(f"the line is longer than {LONGEST_LINE} bytes")
     line = line.translate(None, _HIGH)
     if text := _TEXT.fullmatch(line):  # the only line whose blanks and small letters count
-        return AppendStartup(text[1].translate(None, _CONTROL).decode("ascii"))
+        return AppendStartup(text[1].translate(None, _CONTROL).decode("ascii")[: ranges.LONGEST_STARTUP])
     letters = line.translate(None, _BLANKS).decode("ascii").upper()
     return _read(letters) if letters else None
 
@@ -108,8 +108,9 @@ def _pulse(digits: str) -> int:
     return value and min(max(value, ranges.PULSE_RANGE[0]), ranges.PULSE_RANGE[1])
 
 
-def _speed(digits: str) -> int:
-    return _number(digits, "speed [µs/s]", ranges.SPEED_RANGE)
+def _speed(digits: str) -> int | None:
+    """[µs/s]; 0 limits nothing."""
+    return _number(digits, "speed [µs/s]", (0, ranges.SPEED_RANGE[1])) or None
 
 
 def _offsets(match: re.Match[str]) -> SetOffsets:
@@ -237,5 +238,10 @@ def analog_reply(volts: Iterable[float]) -> bytes:
 
 
 def text_reply(text: str) -> bytes:
-    """To `VER`, `R4`, `RDFLT`, `SS`: the text and CR; what is not ASCII becomes "?"."""
+    """To `VER`, `R4`, `RDFLT`: the text and CR; what is not ASCII becomes "?"."""
     return text.encode("ascii", "replace") + CR
+
+
+def startup_reply(text: str) -> bytes:
+    """To `SS`: the startup text between quotation marks, and CR."""
+    return text_reply(f'"{text}"')

@@ -31,7 +31,8 @@ class Reply(NamedTuple):
     """An answer and what it answers.
 
     Its value: QueryMoving → bool; QueryPulses → µs a channel (int, 0 = no pulse); ReadDigital → bool an input;
-    ReadAnalog → volts an input; ReadRegister → int; QueryVersion, RestoreRegisters, ShowStartup → str.
+    ReadAnalog → volts an input; ReadRegister → int; QueryVersion, RestoreRegisters, ShowStartup (without its
+    quotation marks) → str.
     """
 
     query: Query
@@ -81,7 +82,7 @@ _ANSWERS: dict[type[Any], Callable[[Any], _Answer]] = {
     ReadRegister: lambda _: _text(r" *[+-]?\d{1,9} *", int),
     QueryVersion: lambda _: _text(r".+"),
     RestoreRegisters: lambda _: _text(r".+"),
-    ShowStartup: lambda _: _text(r".*"),
+    ShowStartup: lambda _: _text(r'".*"', lambda text: text[1:-1]),
 }
 
 

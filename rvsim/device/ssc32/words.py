@@ -1,0 +1,201 @@
+"""What goes over the wire, said in words: for people who look at the log of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+from rvsim.device.ssc32 import ranges
+from rvsim.device.ssc32.board_side import Dropped, read_line
+from rvsim.device.ssc32.commands import (
+    AppendStartup,
+    DeleteStartup,
+    Move,
+    Query,
+    QueryMoving,
+    QueryPulses,
+    QueryVersion,
+    ReadAnalog,
+    ReadDigital,
+    ReadRegister,
+    RestoreRegisters,
+    ServoMove,
+    SetByte,
+    SetLevels,
+    SetOffsets,
+    ShowStartup,
+    Stop,
+    WriteRegister,
+)
+from rvsim.device.ssc32.replies import ReplyDecoder
+
+Names: TypeAlias = Mapping[int, str]
+NO_NAMES: Names = MappingProxyType({})
+
+
+def sent_in_words(line: bytes, names: Names = NO_NAMES) -> str:
+    """What the board makes of these bytes, one line or several, with or without CR.
+
+    Args:
+        line: as it was sent.
+        names: of the servos, by channel; the others are called "servo 7".
+    """
+    lines = line.removesuffix(b"\r").split(b"\r")
+    return "; ".join(_line(one, names) for one in lines)
+
+
+def _line(line: bytes, names: Names) -> str:
+    _, esc, kept = line.rpartition(b"\x1b")
+    if esc and not kept:
+        return "ESC: the unfinished line is discarded, what moves goes on"
+    command = read_line(kept)
+    if command is None:
+        return "an empty line: nothing happens"
+    if isinstance(command, Dropped):
+        return f"the board drops this line: {command.reason}"
+    return _COMMANDS[type(command)](command, names)
+
+
+def _listed(parts: Sequence[str]) -> str:
+    """A, b and c."""
+    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
+
+
+def _name(channel: int, names: Names) -> str:
+    return names.get(channel, f"servo {channel}")
+
+
+def _move(move: Move, names: Names) -> str:
+    return _listed([_servo(servo, names) for servo in move.servos]) + _duration(move)
+
+
+def _servo(servo: ServoMove, names: Names) -> str:
+    name = _name(servo.channel, names)
+    if not servo.pulse_us:
+        return f"{name} off (limp)"
+    speed = "" if servo.speed is None else f" at no more than {servo.speed} µs/s"
+    return f"{name} to {servo.pulse_us} µs{speed}"
+
+
+def _duration(move: Move) -> str:
+    moving = [servo for servo in move.servos if servo.pulse_us]
+    together = ", together" if len(moving) > 1 else ""
+    return together + _pace(move.time_ms, any(servo.speed for servo in moving)) if moving else ""
+
+
+def _pace(time_ms: int | None, limited: bool) -> str:
+    if time_ms:
+        return f" in {'at least ' if limited else ''}{time_ms} ms"
+    return "" if limited else " at full speed"
+
+
+def _offsets(command: SetOffsets, names: Names) -> str:
+    parts = [f"{_name(channel, names)} by {offset:+d} µs" for channel, offset in command.offsets]
+    return f"shift all pulses of {_listed(parts)}, until the power goes"
+
+
+def _levels(command: SetLevels, _: Names) -> str:
+    return _listed([f"pin {channel} {'high (5 V)' if high else 'low (0 V)'}" for channel, high in command.levels])
+
+
+def _byte(command: SetByte, _: Names) -> str:
+    first = 8 * command.bank
+    return f"pins {first} to {first + 7} to the bits of {command.value} ({command.value:08b}, the last is pin {first})"
+
+
+def _digital(command: ReadDigital, _: Names) -> str:
+    names = [ranges.DIGITAL_INPUTS[pin] for pin, _ in command.inputs]
+    latched = [ranges.DIGITAL_INPUTS[pin] for pin, latched in command.inputs if latched]
+    since = f" ({_listed(latched)}: or has been low since the last time)" if latched else ""
+    return f"is {_listed(names)} high or low?{since}"
+
+
+def _analog(command: ReadAnalog, _: Names) -> str:
+    return f"what is the voltage of {_listed([ranges.ANALOG_INPUTS[pin] for pin in command.inputs])}?"
+
+
+def _pulses(command: QueryPulses, names: Names) -> str:
+    return f"which pulse does the board send to {_listed([_name(channel, names) for channel in command.channels])}?"
+
+
+def _stop(command: Stop, names: Names) -> str:
+    return f"{_name(command.channel, names)} stops where it is"
+
+
+def _write_register(command: WriteRegister, _: Names) -> str:
+    return f"register {command.register} becomes {command.value} when the power comes again"
+
+
+_COMMANDS: dict[type[Any], Callable[[Any, Names], str]] = {
+    Move: _move,
+    SetOffsets: _offsets,
+    SetLevels: _levels,
+    SetByte: _byte,
+    QueryMoving: lambda *_: "is any move still under way?",
+    QueryPulses: _pulses,
+    ReadDigital: _digital,
+    ReadAnalog: _analog,
+    QueryVersion: lambda *_: "what are you? (the board and its version)",
+    Stop: _stop,
+    ReadRegister: lambda command, _: f"what is in register {command.register}?",
+    WriteRegister: _write_register,
+    RestoreRegisters: lambda *_: "all registers as they left the factory",
+    ShowStartup: lambda *_: "what is the startup text?",
+    AppendStartup: lambda command, _: f"add “{command.text}” to the startup text",
+    DeleteStartup: lambda command, _: f"delete the last {command.count} characters of the startup text",
+}
+
+
+def reply_in_words(query: Query | None, data: bytes, names: Names = NO_NAMES) -> str:
+    """What these bytes from the board say.
+
+    Args:
+        query: what had been asked; None where nothing had.
+        data: as they came.
+        names: of the servos, by channel; the others are called "servo 7".
+    """
+    if query is None:
+        return "nothing had been asked"
+    decoder = ReplyDecoder()
+    decoder.expect(query)
+    replies = decoder.feed(data)
+    if not replies:
+        return "no whole answer to what had been asked"
+    said = _ANSWERS[type(query)](query, replies[0].value, names)
+    return f"{said}; besides, bytes that nobody asked for" if decoder.take_stray() else said
+
+
+def _pulses_said(query: QueryPulses, pulses_us: tuple[int, ...], names: Names) -> str:
+    pairs = zip(query.channels, pulses_us, strict=True)
+    said = [f"{_name(channel, names)} {f'{pulse} µs' if pulse else 'no pulse'}" for channel, pulse in pairs]
+    return f"the board sends to {_listed(said)} (commanded, not measured)"
+
+
+def _digital_said(query: ReadDigital, levels: tuple[bool, ...], _: Names) -> str:
+    pairs = zip(query.inputs, levels, strict=True)
+    said = [f"{ranges.DIGITAL_INPUTS[pin]} {_level(level, latched)}" for (pin, latched), level in pairs]
+    return _listed(said)
+
+
+def _level(high: bool, latched: bool) -> str:
+    if latched:
+        return "always high since the last time" if high else "low, or has been"
+    return "high" if high else "low"
+
+
+def _analog_said(query: ReadAnalog, volts: tuple[float, ...], _: Names) -> str:
+    pairs = zip(query.inputs, volts, strict=True)
+    return _listed([f"{ranges.ANALOG_INPUTS[pin]} {volt:.2f} V" for pin, volt in pairs])
+
+
+_ANSWERS: dict[type[Any], Callable[[Any, Any, Names], str]] = {
+    QueryMoving: lambda _, moving, __: "a move is still under way" if moving else "all moves are finished",
+    QueryPulses: _pulses_said,
+    ReadDigital: _digital_said,
+    ReadAnalog: _analog_said,
+    QueryVersion: lambda _, text, __: f"the board calls itself {text}",
+    ReadRegister: lambda query, value, _: f"register {query.register} holds {value}",
+    RestoreRegisters: lambda *_: "the registers are as they left the factory",
+    ShowStartup: lambda _, text, __: f"the startup text is “{text}”" if text else "there is no startup text",
+}
