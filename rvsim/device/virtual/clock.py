@@ -9,6 +9,7 @@ from rvsim.errors import SettingError
 NANO = 1_000_000_000
 FRAME_NS = 20_000_000  # a hobby servo gets a pulse every 20 ms
 FRAME = FRAME_NS / NANO  # [s]
+_ROUNDING = 2.0**-51
 
 
 class Clock:
@@ -33,7 +34,9 @@ class Clock:
             raise SettingError("dt", dt, "a number of seconds, 0 or more")
         passed = dt * NANO + self._rest
         whole = round(passed)
-        self._rest = passed - whole
+        rest = passed - whole
+        # What is less than the rounding of long times is none: hours come out whole, and stay so.
+        self._rest = rest if abs(rest) > passed * _ROUNDING else 0.0
         self.now += whole
         return self.now
 

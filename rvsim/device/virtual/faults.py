@@ -75,6 +75,11 @@ class Faults:
     def __contains__(self, fault: Fault) -> bool:
         return fault in self.on
 
+    def servos(self, fault: Fault, count: int) -> list[int]:
+        """Which of so many servos a fault means; none where it is off."""
+        meant = {Fault.STALLED_SERVO: self.stalled, Fault.SAGGING_SERVO: self.sagging}.get(fault, ())
+        return [servo for servo in meant if 0 <= servo < count] if fault in self.on else []
+
     def switched(self, fault: Fault, on: bool = True) -> Faults:
         """A copy in which one fault is on, or off."""
         return replace(self, on=self.on | {fault} if on else self.on - {fault})
