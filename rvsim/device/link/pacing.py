@@ -11,6 +11,8 @@ from rvsim.errors import SettingError
 # Answers are picked up once in a USB frame, as adapters do; after a silence once in a servo frame, which costs little.
 _PICK_UP_NS, _IDLE_PICK_UP_NS = NANO // 1000, NANO // 50
 _SILENCE_NS = 5 * NANO
+_RECENT_NS = NANO // 20
+_BUFFER = 4096  # bytes kept for who does not read; what comes on top is lost, as in an operating system
 
 
 class WiredArm(Protocol):
@@ -79,6 +81,12 @@ class PacedArm:
         return self._down.waiting
 
     @property
+    def busy(self) -> bool:
+        """Whether bytes are on their way, or were a moment ago."""
+        recent = self._clock.now - self._last_byte < _RECENT_NS
+        return recent or not (self._down.resting and self._up.resting)
+
+    @property
     def in_waiting(self) -> int:
         """How many bytes `receive` would give."""
         return len(self._received)
@@ -133,7 +141,7 @@ class PacedArm:
         self._bytes_up(now)
         answer = self.arm.read()
         if answer:
-            self._up.send(answer, now)
+            self._up.send(answer[: _BUFFER - self._up.waiting], now)
             self._last_byte = now
         quiet = now - self._last_byte >= _SILENCE_NS and self._up.resting
         self._pick_up_at = _after(now, _IDLE_PICK_UP_NS if quiet else _PICK_UP_NS)
@@ -142,6 +150,7 @@ class PacedArm:
         while not self._up.resting and self._up.arrives <= now:
             self._received += self._up.arrive()
         self._received += self._up.misheard(now)
+        del self._received[_BUFFER:]
 
 
 def _after(now: int, step: int) -> int:

@@ -1,0 +1,26 @@
+"""Real time handed on to a wire that reads no clock."""
+
+from __future__ import annotations
+
+from rvsim.device.link.pacing import PacedArm
+
+_PIECE, _LONGEST = 1.0, 120.0  # [s] at once, and in all after a long silence: two moves of the longest duration
+
+
+class RealTime:
+    """Tells a wire how much time has passed.
+
+    Args:
+        wire: to be told.
+        now: the time up to which it has been told already [s].
+    """
+
+    def __init__(self, wire: PacedArm, now: float) -> None:
+        self._wire, self._told = wire, now
+
+    def tell(self, now: float) -> None:
+        """It is `now` [s]."""
+        left, self._told = min(now - self._told, _LONGEST), now
+        while left > 0.0:
+            self._wire.process(min(left, _PIECE))
+            left -= _PIECE
