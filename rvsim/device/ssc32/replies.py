@@ -59,11 +59,11 @@ def _bytes(allowed: frozenset[int], count: int, value: Callable[[bytes], Value])
 
 
 def _text(pattern: str, value: Callable[[str], Value] = str) -> _Answer:
-    wanted = re.compile(pattern)
+    wanted = re.compile(f"({pattern})\r")
 
     def read(data: bytes) -> Value | None:
-        text = data.decode("ascii").removesuffix("\r")
-        return value(text) if wanted.fullmatch(text) else None
+        found = wanted.fullmatch(data.decode("ascii"))
+        return value(found[1]) if found else None
 
     return _Answer(_TEXT, lambda data: data.endswith(CR) or len(data) > _LONGEST_TEXT, read)
 
