@@ -15,6 +15,7 @@ WORDS: dict[FindingKind, str] = {
     "jump": "Jump",
     "speed": "Speed",
     "acceleration": "Acceleration",
+    "pace": "Time",
     "singular": "Singularity",
     "table": "Table",
     "own": "Itself",
@@ -30,6 +31,7 @@ def finding_sentence(report: Report, finding: Finding, units: Units) -> str:
         "jump": _jump,
         "speed": _rate,
         "acceleration": _rate,
+        "pace": _pace,
         "singular": _singular,
         "table": _table,
         "own": _own,
@@ -88,6 +90,15 @@ def _rate(report: Report, finding: Finding, units: Units) -> str:
     source = "assumed " if finding.assumed else ""
     share = 100.0 * finding.value / finding.limit
     return f"At most {share:.0f} %: {joint}, {value} of the {source}{limit}."
+
+
+def _pace(report: Report, finding: Finding, _units: Units) -> str:
+    assert finding.joint is not None
+    joint = f"{report.robot.joint_names[finding.joint]} {where_words(finding)}"
+    times = f"{finding.value:.2f} s instead of the {finding.limit:.2f} s asked for"
+    if finding.severity == "good":
+        return f"Slowed down where a joint needs it, most of all {joint}: {times}."
+    return f"{_capital(joint)} cannot go so fast, so all of it is slowed down: {times}."
 
 
 def _rate_text(robot: Robot, finding: Finding, value: float, units: Units) -> str:

@@ -17,12 +17,12 @@ from rvsim.kinematics.jacobian import jacobian
 from rvsim.kinematics.singular_families import singular_families
 from rvsim.kinematics.singularity import task_rows
 from rvsim.motion.tracking_result import Tracking, Unreached, UnreachedKind
-from rvsim.motion.trajectory import Trajectory
+from rvsim.motion.trajectory import Stretch, Trajectory, accelerations, speeds, telling_times
 from rvsim.robot import Datum, Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 Severity = Literal["good", "warning", "bad"]
-FindingKind = Literal["reach", "missed", "jump", "speed", "acceleration", "singular", "table", "own"]
+FindingKind = Literal["reach", "missed", "jump", "speed", "acceleration", "pace", "singular", "table", "own"]
 SEVERITIES: tuple[Severity, ...] = ("bad", "warning", "good")
 
 _MOMENTS = 401
@@ -31,8 +31,8 @@ _NEAR, _IN = 0.02, 1e-3
 _FAMILY_NEAR = 0.1  # its term, to be named as what comes near
 _CLOSE = 0.01  # a clearance, in sizes of the arm
 _FULL = 1.0 + 1e-6  # of a limit
-_ALMOST = 0.98
 _ROUNDING = 1e-9
+_IN_TIME = 1.01  # of the time asked for
 
 
 class Peak(NamedTuple):
@@ -55,7 +55,8 @@ class Finding:
 
     Args:
         kind: "reach" (value: the share of points), "missed" (a stretch of points), "jump", "speed" and "acceleration"
-            (the joint that is nearest to its limit), "singular" (value: σ_min, limit: σ_min / σ_max), "table" and
+            (the joint that is nearest to its limit), "pace" (the path takes `value` [s] where `limit` was asked for,
+            for the sake of a joint), "singular" (value: σ_min, limit: σ_min / σ_max), "table" and
             "own" (value: the clearance).
         index, last: the first and the last path index, None where it is on the way to the path.
         time: when it happens [s], None where nothing moves.
@@ -135,6 +136,7 @@ def check(tracking: Tracking, trajectory: Trajectory | None, *, table: float | N
         *_jumps(look),
         *_most("speed", speeds, look),
         *_most("acceleration", accelerations, look),
+        *_pace(look),
         *_singular(look),
         *_clear(look, clear, table),
     ]
@@ -173,16 +175,25 @@ class _Look:
             return (), ()
         joints = self.tracking.robot.joints
         limits = [joint.max_speed for joint in joints], [joint.max_acceleration for joint in joints]
-        curves = np.abs(self.moments.qd), np.abs(self.moments.qdd)
+        times, *curves = self._steepest
         speeds, accelerations = (
-            tuple(self._peak(joint, curve[:, joint], limit[joint]) for joint in range(len(joints)))
+            tuple(_peak(joint, times, curve[:, joint], limit[joint]) for joint in range(len(joints)))
             for curve, limit in zip(curves, limits, strict=True)
         )
         return speeds, accelerations
 
-    def _peak(self, joint: int, curve: FloatArray, limit: Datum | None) -> Peak:
-        at = int(np.argmax(curve))
-        return Peak(joint, float(curve[at]), float(self.times[at]), limit)
+    @cached_property
+    def _steepest(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Times (m,) [s] at which peaks cannot be missed, and |q̇| and |q̈| (m, n) there."""
+        assert self.trajectory is not None
+        times, speeds, accelerations = [], [], []
+        for begin, stretch in zip(self.trajectory.starts, self.trajectory.stretches, strict=False):
+            since = telling_times(stretch)
+            moments = stretch.at(since)
+            times.append(begin + since)
+            speeds.append(np.abs(moments.qd))
+            accelerations.append(np.abs(moments.qdd))
+        return np.concatenate(times), np.concatenate(speeds), np.concatenate(accelerations)
 
     @cached_property
     def on_path(self) -> NDArray[np.bool_]:
@@ -195,7 +206,11 @@ class _Look:
         """The path index of a moment; None on the way to the path."""
         if self.trajectory is None:
             return int(np.flatnonzero(self.tracking.reached)[row])
-        time = float(self.times[row])
+        return self.index_of(float(self.times[row]))
+
+    def index_of(self, time: float) -> int | None:
+        """The path index at a time [s] of the motion; None on the way to the path."""
+        assert self.trajectory is not None
         return round(self.trajectory.path_index(time)) if self.trajectory.phase(time) == "path" else None
 
     def time_at(self, row: int) -> float | None:
@@ -205,6 +220,11 @@ class _Look:
     def time_of(self, index: int) -> float | None:
         """When the motion is at a path index, or waits before it [s]."""
         return None if self.trajectory is None else time_of_index(self.trajectory, index)
+
+
+def _peak(joint: int, times: FloatArray, curve: FloatArray, limit: Datum | None) -> Peak:
+    at = int(np.argmax(curve))
+    return Peak(joint, float(curve[at]), float(times[at]), limit)
 
 
 def _moments(trajectory: Trajectory) -> FloatArray:
@@ -268,11 +288,41 @@ def _most(kind: Literal["speed", "acceleration"], peaks: tuple[Peak, ...], look:
     peak = max(known, key=lambda peak: peak.share)
     assert peak.limit is not None
     severity: Severity = "good" if peak.share <= _FULL else "bad"
-    index = look.index_at(int(np.searchsorted(look.times, peak.time)))
+    index = look.index_of(peak.time)
     yield Finding(
         kind, severity, index, index, peak.time, peak.value, peak.limit.value, joint=peak.joint,
         assumed=peak.limit.assumed,
     )  # fmt: skip
+
+
+def _pace(look: _Look) -> Iterator[Finding]:
+    """Whether the path takes longer than was asked for; no fault where it was eased, for then somebody has seen to it.
+
+    The joint is the one that is nearest to a limit in the stretch that is the most behind.
+    """
+    if look.trajectory is None:
+        return
+    stretches = look.trajectory.stretches
+    wished = sum(stretch.wanted for stretch in stretches)
+    needed = sum(stretch.duration for stretch in stretches if stretch.wanted)
+    if needed <= _IN_TIME * wished:
+        return
+    asked = [number for number, stretch in enumerate(stretches) if stretch.wanted]
+    number = max(asked, key=lambda i: stretches[i].duration - stretches[i].wanted)
+    time, joint = _tightest(look.tracking.robot, stretches[number])
+    time += float(look.trajectory.starts[number])
+    severity: Severity = "good" if any(stretch.eased for stretch in stretches) else "warning"
+    index = look.index_of(time)
+    yield Finding("pace", severity, index, index, time, needed, wished, joint=joint)
+
+
+def _tightest(robot: Robot, stretch: Stretch) -> tuple[float, int]:
+    """When [s] and which joint comes nearest to a limit of its own."""
+    times = telling_times(stretch)
+    moments = stretch.at(times)
+    shares = np.maximum(np.abs(moments.qd) / speeds(robot), np.abs(moments.qdd) / accelerations(robot))
+    moment, joint = np.unravel_index(np.argmax(shares), shares.shape)
+    return float(times[moment]), int(joint)
 
 
 def _singular(look: _Look) -> Iterator[Finding]:

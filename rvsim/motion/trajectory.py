@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
@@ -46,7 +47,10 @@ _EASY_TURN = np.pi / 2
 _EASY_SIZES = 0.5
 _SHORTEST_MOVE = 0.4
 _SHORTEST_STRETCH = 1e-3
-_EVEN_SAMPLES = 401
+_IN_A_PIECE = np.array([0.0, 0.25, 0.5, 0.75, 1.0 - 1e-9])
+_ENDS = np.geomspace(1e-5, 0.1, 80)
+_TELLING = np.unique(np.concatenate([np.linspace(0.0, 1.0, 401), _ENDS, 1.0 - _ENDS]))
+_PACE_SAMPLES = 2001
 _BETWEEN_SAMPLES = 1.001  # peaks are looked for at samples; between them they are hardly higher
 # Where no time is asked for, a move uses this part of the joints' speeds.
 _CALM = 0.6
@@ -63,6 +67,8 @@ class Stretch:
         progress: (k,) the path index at each knot.
         phase: "approach" on the way to the path, "path" along it, or waiting on it.
         law: how it speeds up and slows down: from 0 to 1 in a second, one column.
+        wanted: how long it was asked to take [s]: less than `duration` where a joint needs more; 0 for no wish.
+        eased: whether it was slowed down only where a joint needs it, not as a whole.
     """
 
     duration: float
@@ -71,6 +77,8 @@ class Stretch:
     progress: FloatArray
     phase: Phase = "path"
     law: PiecewisePolynomial = _SHAPES["quintic"]
+    wanted: float = 0.0
+    eased: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "knots", frozen_array("knots", self.knots, (-1,)))
@@ -185,6 +193,7 @@ def trajectory_of(
     path_seconds: float | None = None,
     approach_seconds: float | None = None,
     law: Law = "quintic",
+    ease: bool = False,
 ) -> Trajectory | None:
     """From `start_q` (n,) to the first reached point and along the path; None when no point was reached.
 
@@ -198,6 +207,7 @@ def trajectory_of(
             0 for as quick as the joints may with this law.
         approach_seconds: the same for the way to the first reached point.
         law: how each stretch speeds up and slows down.
+        ease: where a joint cannot follow the law in that time, slow down only there, not the whole stretch.
     """
     if not tracking.reached_count:
         return None
@@ -212,7 +222,7 @@ def trajectory_of(
         if not np.array_equal(stretches[-1].q[-1], tracking.q[first]):
             gap = _move(tracking.robot, stretches[-1].q[-1], tracking.q[first], None, float(first), "path", law)
             stretches.append(gap)
-        stretches += _along(tracking, first, last, pace, law)
+        stretches += _along(tracking, first, last, pace, law, ease, wish=bool(path_seconds))
         done = last
     stretches += _wait(stretches[-1].q[-1], done, tracking.samples - 1, pace)
     return Trajectory(tuple(stretches))
@@ -239,7 +249,7 @@ def _move(
 ) -> Stretch:
     ends = np.array([np.asarray(q0, dtype=np.float64), np.asarray(q1, dtype=np.float64)])
     made = _with_law(robot, Stretch(1.0, np.array([0.0, 1.0]), ends, np.full(2, progress), phase), law)
-    shortest = _shortest_seconds(robot, made)
+    shortest = shortest_seconds(robot, made)
     calm = max(_SHORTEST_MOVE, shortest / _CALM)
     return replace(made, duration=calm if seconds is None else max(seconds, shortest, _SHORTEST_STRETCH))
 
@@ -251,14 +261,41 @@ def _wait(q: FloatArray, first: int, last: int, pace: float) -> list[Stretch]:
     return [Stretch((last - first) * pace, np.array([0.0, 1.0]), np.array([q, q]), np.array([first, last], float))]
 
 
-def _along(tracking: Tracking, first: int, last: int, pace: float, law: Law) -> list[Stretch]:
+def _along(
+    tracking: Tracking, first: int, last: int, pace: float, law: Law, ease: bool, *, wish: bool
+) -> list[Stretch]:
     """Through the reached points first…last, as long as the pace says, or longer where a joint needs it."""
     if last == first:
         return []
-    q = tracking.q[first : last + 1]
-    made = Stretch(1.0, _knots(tracking, first, last), q, np.arange(first, last + 1, dtype=np.float64))
+    q, wanted = tracking.q[first : last + 1], (last - first) * pace
+    made = Stretch(wanted, _knots(tracking, first, last), q, np.arange(first, last + 1, dtype=np.float64),
+                   wanted=wanted if wish else 0.0)  # fmt: skip
     made = _with_law(tracking.robot, made, law)
-    return [replace(made, duration=max((last - first) * pace, _shortest_seconds(tracking.robot, made)))]
+    shortest = shortest_seconds(tracking.robot, made)
+    if ease and wanted < shortest:
+        slower = eased(tracking.robot, made)
+        return [slower if slower.duration < shortest else replace(made, duration=shortest, eased=True)]
+    return [replace(made, duration=max(wanted, shortest))]
+
+
+def eased(robot: Robot, stretch: Stretch) -> Stretch:
+    """The same way by the same law, slower only where a joint would exceed its speed or acceleration.
+
+    Where the law had to give way, its acceleration jumps from value to value, as in a trapezoid.
+
+    Raises:
+        SettingError: there is no limit at all.
+    """
+    law = quickest_along(stretch.way, speeds(robot), accelerations(robot), _pace_of(stretch))
+    made = replace(stretch, law=law.in_one_second(), duration=law.duration, eased=True)
+    return replace(made, duration=max(law.duration, shortest_seconds(robot, made)))
+
+
+def _pace_of(stretch: Stretch) -> Callable[[FloatArray], FloatArray]:
+    """How fast the fraction of the way grows at fractions (m,) [1/s]."""
+    at = stretch.law.at(np.linspace(0.0, 1.0, _PACE_SAMPLES))
+    done, speed = at.q[:, 0], at.qd[:, 0] / stretch.duration
+    return lambda s: np.interp(s, done, speed)
 
 
 def _with_law(robot: Robot, stretch: Stretch, law: Law) -> Stretch:
@@ -284,21 +321,27 @@ def _knots(tracking: Tracking, first: int, last: int) -> FloatArray:
     return np.asarray(knots / knots[-1])
 
 
-def _shortest_seconds(robot: Robot, stretch: Stretch) -> float:
-    """The least duration of a stretch (given with one of 1 s) that keeps speeds and accelerations of the joints."""
-    moments = stretch.at(_telling_times(stretch))
+def shortest_seconds(robot: Robot, stretch: Stretch) -> float:
+    """The least duration [s] of a stretch, however long it takes now, that keeps speeds and accelerations of joints."""
+    moments = stretch.at(telling_times(stretch))
     speed = float(np.max(np.abs(moments.qd) / speeds(robot)))
     acceleration = float(np.max(np.abs(moments.qdd) / accelerations(robot)))
-    return _BETWEEN_SAMPLES * max(speed, math.sqrt(acceleration))
+    return stretch.duration * _BETWEEN_SAMPLES * max(speed, math.sqrt(acceleration))
 
 
-def _telling_times(stretch: Stretch) -> FloatArray:
-    """Fractions of the duration at which the peaks are seen: at the knots, a few times between them, and evenly."""
-    even = np.linspace(0.0, 1.0, _EVEN_SAMPLES)
+def telling_times(stretch: Stretch) -> FloatArray:
+    """Times from its start [s] at which its peaks are seen.
+
+    On both sides of each break of the law and a few times between them, at the knots and a few times between them,
+    evenly, and densely at both ends: there much time is little of the way, and knots may lie close to them.
+    """
+    breaks = stretch.law.breaks
+    pieces = (breaks[:-1, None] + _IN_A_PIECE * np.diff(breaks)[:, None]).ravel()
+    even = np.unique(np.concatenate([_TELLING, pieces]))
     between = np.linspace(0.0, 1.0, 6)[:-1, None]
     ways = np.concatenate([(stretch.knots[:-1] + between * np.diff(stretch.knots)).ravel(), [1.0]])
     times = np.interp(ways, stretch.law.q(even)[:, 0], even)
-    return np.concatenate([even, times])
+    return np.asarray(stretch.duration * np.concatenate([even, times]))
 
 
 def accelerations(robot: Robot) -> FloatArray:

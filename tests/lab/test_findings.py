@@ -48,6 +48,23 @@ def test_the_units_are_those_asked_for(ellipse: Report) -> None:
     assert "0.278 m below" in finding_sentence(ellipse, table, Units("rad", "m"))
 
 
+@pytest.mark.parametrize(("ease", "words"), [(False, "all of it is slowed down"), (True, "where a joint needs it")])
+def test_a_time_too_short_names_the_joint_the_place_and_both_times(ease: bool, words: str) -> None:
+    robot = load_robot("rv-m1")
+    tracking = track(robot, named_path("letter-board", robot))
+    motion = trajectory_of(tracking, robot.home, path_seconds=3.0, ease=ease)
+    assert motion is not None
+    report = check(tracking, motion)
+    (late,) = report.of("pace")
+    assert late.severity == ("good" if ease else "warning")
+    assert late.value == pytest.approx(motion.duration - motion.path_start)
+    text = finding_sentence(report, late, Units())
+    assert words in text
+    assert "3.00 s asked for" in text
+    assert f"at point {late.index + 1}" in text
+    assert not check(tracking, trajectory_of(tracking, robot.home, path_seconds=30.0)).of("pace")
+
+
 @pytest.mark.parametrize(
     ("name", "path"), [("rrrp", "spiral"), ("scara", "star"), ("planar", "star"), ("rv-m1", "line")]
 )

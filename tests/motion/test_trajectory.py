@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from rvsim import load_robot
+from rvsim import forward_kinematics, load_robot
 from rvsim.lab import named_path
-from rvsim.motion import Tracking, Trajectory, joint_move, through_points, track, trajectory_of
-from rvsim.motion.trajectory import Law, Stretch, accelerations
+from rvsim.motion import Path, Tracking, Trajectory, joint_move, through_points, track, trajectory_of
+from rvsim.motion.laws import quintic_between
+from rvsim.motion.trajectory import Law, Stretch, accelerations, speeds
 
 CASES = [
     ("rv-m1", "letter-board"),
@@ -54,6 +57,56 @@ def test_speeds_and_accelerations_are_derivatives_and_within_the_limits(robot: s
     before, after = trajectory.at(times[inside] - 1e-4), trajectory.at(times[inside] + 1e-4)
     speeds = (after.q - before.q) / 2e-4
     assert np.allclose(speeds, moments.qd[inside], atol=2e-3)
+
+
+LAWS: tuple[Law, ...] = ("quintic", "cubic", "trapezoid", "quickest")
+
+
+@given(
+    arm=st.sampled_from(["rv-m1", "ur5e", "al5b"]),
+    shares=st.lists(st.lists(st.floats(0.1, 0.9), min_size=6, max_size=6), min_size=4, max_size=7),
+    law=st.sampled_from(LAWS),
+    wish=st.floats(0.0, 6.0),
+)
+@settings(max_examples=40)
+def test_a_path_that_is_eased_exceeds_no_limit_and_is_no_slower_than_one_slowed_down_as_a_whole(
+    arm: str, shares: list[list[float]], law: Law, wish: float
+) -> None:
+    robot = load_robot(arm)
+    low, high = np.maximum(robot.limits[:, 0], -2.0), np.minimum(robot.limits[:, 1], 2.0)
+    q = low + np.array(shares)[:, : robot.dof] * (high - low)
+    points = forward_kinematics(robot, q)[:, :3, 3]
+    tracking = Tracking(robot, Path("via", points, None), q, ())
+    whole, local = (trajectory_of(tracking, q[0], path_seconds=wish, law=law, ease=ease) for ease in (False, True))
+    assert whole is not None
+    assert local is not None
+    assert local.duration <= whole.duration * (1.0 + 1e-9)
+    assert local.duration >= wish * (1.0 - 1e-9)
+    for motion in (whole, local):
+        moments = motion.at(np.linspace(0.0, motion.duration, 20_011))
+        assert np.all(np.abs(moments.qd) <= speeds(robot) * (1.0 + 1e-6))
+        assert np.all(np.abs(moments.qdd) <= accelerations(robot) * (1.0 + 1e-6))
+        np.testing.assert_allclose(motion.q(motion.duration), q[-1], atol=1e-12)
+
+
+def test_easing_changes_the_law_only_where_a_joint_needs_it() -> None:
+    tracking = tracked("ur5e", "ellipse-moved")
+    wished = 0.6 * _path_seconds(trajectory_of(tracking, tracking.robot.home, path_seconds=0.0))
+    motion = trajectory_of(tracking, tracking.robot.home, path_seconds=wished, ease=True)
+    assert motion is not None
+    (stretch,) = [stretch for stretch in motion.stretches if stretch.eased]
+    fractions = np.linspace(0.0, 1.0, 2001)
+    law, done = stretch.law, np.linspace(0.01, 0.99, 99)
+    wanted = quintic_between(0.0, 1.0, 0.0, 1.0)
+    asked = np.interp(done, wanted.q(fractions)[:, 0], wanted.at(fractions).qd[:, 0] / stretch.wanted)
+    had = np.interp(done, law.q(fractions)[:, 0], law.at(fractions).qd[:, 0] / stretch.duration)
+    assert np.all(had <= asked * 1.01)
+    assert np.mean(np.isclose(had, asked, rtol=0.01)) > 0.1
+
+
+def _path_seconds(motion: Trajectory | None) -> float:
+    assert motion is not None
+    return motion.duration - motion.path_start
 
 
 def test_the_tool_rests_at_the_corners_of_a_star() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,33 +16,60 @@ _STEPS_A_PIECE, _LEAST_STEPS, _MOST_STEPS = 8, 200, 4000
 _TINY = 1e-12
 
 
-def quickest_along(way: PiecewisePolynomial, max_speed: ArrayLike, max_acceleration: ArrayLike) -> PiecewisePolynomial:
+def quickest_along(
+    way: PiecewisePolynomial,
+    max_speed: ArrayLike,
+    max_acceleration: ArrayLike,
+    pace: Callable[[FloatArray], FloatArray] | None = None,
+) -> PiecewisePolynomial:
     """s(t), one column, from rest at the way's beginning to rest at its end: how to travel q = way(s) the quickest.
 
     Backward and forward pass over the squared path speed x = ṡ², whose limits are linear in x and u = s̈:
     |q' √x| ≤ max_speed and |q' u + q'' x| ≤ max_acceleration. Pham and Pham, A new approach to time-optimal path
-    parameterization based on reachability analysis, IEEE T-RO 34 (2018). The limits hold at the grid of the passes;
-    between its places they can be exceeded a little.
+    parameterization based on reachability analysis, IEEE T-RO 34 (2018), with the interpolation scheme of §V: the
+    acceleration keeps its limits at both ends of each step. In between they can be exceeded by a trace.
 
     Args:
         way: the curve over a parameter s (not over time).
         max_speed, max_acceleration: (n,) or one number for all, positive; infinite where there is no limit.
+        pace: ṡ at places s (m,), never to be exceeded either: then it is the law of that pace, slower where a limit
+            needs it.
 
     Raises:
         SettingError: a limit that is not positive, or none at all, so that nothing ends the hurry.
     """
-    steps = int(np.clip(_STEPS_A_PIECE * len(way.coefficients), _LEAST_STEPS, _MOST_STEPS))
-    s = np.linspace(way.start, way.end, steps + 1)
+    s = _grid(way)
     _, slope, bend, _ = way.at(s)
     speed = _limit("max_speed", max_speed, slope.shape[1])
     acceleration = _limit("max_acceleration", max_acceleration, slope.shape[1])
-    step = float(s[1] - s[0])
-    most = _most(slope, bend, speed, acceleration)
-    lines = _lines(slope, bend, acceleration)
-    highest = _backwards(most, lines, step)
+    steps = np.diff(s)
+    slopes, bends = _at_both_ends(slope, bend, steps)
+    most = np.minimum(_by_speed(slope, speed), np.append(_by_bend(slopes, bends, np.tile(acceleration, 2)), 0.0))
+    if pace is not None:
+        most = np.minimum(most, pace(s) ** 2)
+    lines = _lines(slopes, bends, np.tile(acceleration, 2))
+    highest = _backwards(most, lines, steps)
     if not np.isfinite(highest).all():
         raise SettingError("max_acceleration", "infinite", "finite for a joint that moves")
-    return _in_time(s, _forwards(highest, lines, step))
+    return _in_time(s, _forwards(highest, lines, steps))
+
+
+def _grid(way: PiecewisePolynomial) -> FloatArray:
+    """(m + 1,) places that divide each piece evenly, so that a kink of the bend lies on one; all evenly if too many."""
+    pieces = len(way.coefficients)
+    if pieces > _MOST_STEPS // 2:
+        return np.linspace(way.start, way.end, _MOST_STEPS + 1)
+    lengths = np.diff(way.breaks)
+    enough = np.ceil(_LEAST_STEPS * lengths / way.duration).astype(int)
+    steps = np.maximum(enough, min(_STEPS_A_PIECE, _MOST_STEPS // pieces))
+    number = np.arange(steps.sum()) - np.repeat(np.cumsum(steps) - steps, steps)
+    return np.append(np.repeat(way.breaks[:-1], steps) + number * np.repeat(lengths / steps, steps), way.end)
+
+
+def _at_both_ends(slope: FloatArray, bend: FloatArray, steps: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(m, 2n) slopes and bends of the limits of each step: at its beginning, and at its end, where x is x + 2 Δ u."""
+    later = slope[1:] + 2.0 * steps[:, None] * bend[1:]
+    return np.hstack([slope[:-1], later]), np.hstack([bend[:-1], bend[1:]])
 
 
 def _limit(name: str, limit: ArrayLike, n: int) -> FloatArray:
@@ -51,13 +79,19 @@ def _limit(name: str, limit: ArrayLike, n: int) -> FloatArray:
     return allowed
 
 
-def _most(slope: FloatArray, bend: FloatArray, speed: FloatArray, acceleration: FloatArray) -> FloatArray:
-    """(m,) the largest x at each place by the speeds, and by the bend where a joint does not go on."""
+def _by_speed(slope: FloatArray, speed: FloatArray) -> FloatArray:
+    """(m,) the largest x at each place by the speeds."""
+    with np.errstate(divide="ignore"):
+        most = np.where(np.abs(slope) > _TINY, (speed / np.abs(slope)) ** 2, math.inf)
+    return np.asarray(most.min(axis=1))
+
+
+def _by_bend(slopes: FloatArray, bends: FloatArray, acceleration: FloatArray) -> FloatArray:
+    """(m,) the largest x by the accelerations of joints that do not go on, however s does."""
+    still = (np.abs(slopes) <= _TINY) & (np.abs(bends) > _TINY)
     with np.errstate(divide="ignore", invalid="ignore"):
-        by_speed = np.where(np.abs(slope) > _TINY, (speed / np.abs(slope)) ** 2, math.inf)
-        still = (np.abs(slope) <= _TINY) & (np.abs(bend) > _TINY)
-        by_bend = np.where(still, acceleration / np.abs(bend), math.inf)
-    return np.asarray(np.minimum(by_speed, by_bend).min(axis=1))
+        most = np.where(still, acceleration / np.abs(bends), math.inf)
+    return np.asarray(most.min(axis=1))
 
 
 def _lines(slope: FloatArray, bend: FloatArray, acceleration: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -68,12 +102,13 @@ def _lines(slope: FloatArray, bend: FloatArray, acceleration: FloatArray) -> tup
     return np.where(moving, acceleration / np.abs(safe), math.inf), np.where(moving, -bend / safe, 0.0)
 
 
-def _backwards(most: FloatArray, lines: tuple[FloatArray, FloatArray], step: float) -> FloatArray:
+def _backwards(most: FloatArray, lines: tuple[FloatArray, FloatArray], steps: FloatArray) -> FloatArray:
     """(m,) the largest x at each place from which the end can be reached at rest."""
     a, b = lines
     highest = most.copy()
     highest[-1] = 0.0
     for i in range(len(most) - 2, -1, -1):
+        step = steps[i]
         # u ≤ (h − x) / 2Δ, the next place's own highest, is one more upper line, u ≥ −x / 2Δ one more lower one.
         upper_at, upper_by = np.append(a[i], highest[i + 1] / (2.0 * step)), np.append(b[i], -0.5 / step)
         lower_at, lower_by = np.append(-a[i], 0.0), np.append(b[i], -0.5 / step)
@@ -89,13 +124,13 @@ def _crossing(upper_at: FloatArray, upper_by: FloatArray, lower_at: FloatArray, 
     return float((room[meets] / closing[meets]).min(initial=math.inf))
 
 
-def _forwards(highest: FloatArray, lines: tuple[FloatArray, FloatArray], step: float) -> FloatArray:
+def _forwards(highest: FloatArray, lines: tuple[FloatArray, FloatArray], steps: FloatArray) -> FloatArray:
     """(m,) x when at each place it speeds up as much as it may."""
     a, b = lines
     x = np.zeros_like(highest)
     for i in range(len(x) - 1):
         u = float((a[i] + b[i] * x[i]).min())
-        x[i + 1] = min(max(x[i] + 2.0 * step * u, 0.0), highest[i + 1])
+        x[i + 1] = min(max(x[i] + 2.0 * steps[i] * u, 0.0), highest[i + 1])
     return x
 
 
