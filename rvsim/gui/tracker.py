@@ -1,41 +1,26 @@
-"""Tracks the line and the chosen trajectory: path → joints → motion, and the repairs offered for missed points."""
+"""Tracks the line and the chosen trajectory: path → joints → motion, and repairs when they are wanted."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from PySide6.QtCore import QObject, Signal
 
 from rvsim.errors import RvsimError
-from rvsim.experiment import Experiment, TrajectoryTask, limit_violations
+from rvsim.experiment import Experiment, limit_violations
 from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.repair_search import RepairSearch
 from rvsim.gui.session import Session
 from rvsim.gui.workers import LatestWorker
-from rvsim.lab.lines import line_presets
-from rvsim.lab.named_paths import line_of
+from rvsim.lab.repairs import Offer, motion_of, path_of
 from rvsim.lab.sentences import Units, tracking_sentence
-from rvsim.lab.shape_paths import is_shape, task_path
-from rvsim.motion import Path, Tracking, Trajectory, track, trajectory_of
+from rvsim.motion import Path, Tracking, Trajectory, track
 from rvsim.robot import Robot
 
-# Where a path of a source cannot be drawn as printed: the same path where it can.
-_PLACEMENTS = {
-    "letter-raw": "letter-board",
-    "letter-scaled": "letter-flat",
-    "ellipse": "ellipse-moved",
-}
 _AT_ONCE, _AT_ONCE_FREE = 250, 40  # points that are tracked without a worker
 _REMEMBERED = 8  # results that undo can bring back
-
-
-class Repair(NamedTuple):
-    """What could be done about missed points: what the button says, and the state in which to track again."""
-
-    title: str
-    tip: str
-    experiment: Experiment
 
 
 class _Done(NamedTuple):
@@ -65,22 +50,17 @@ def _same_task(kind: str, one: Experiment, other: Experiment, *, limits_matter: 
 
 def _solved(kind: str, experiment: Experiment, path: Path, text: str) -> _Done:
     tracking = track(experiment.robot, path, near=experiment.q, ignore_limits=experiment.ignore_limits)
-    return _Done(kind, experiment, tracking, _timed(tracking, experiment), text)
-
-
-def _timed(tracking: Tracking, experiment: Experiment) -> Trajectory | None:
-    """The motion from where the arm is, by the law and in the time that are asked for."""
-    return trajectory_of(tracking, experiment.q, path_seconds=experiment.path_seconds, law=experiment.law)
+    return _Done(kind, experiment, tracking, motion_of(tracking, experiment), text)
 
 
 def _timed_again(done: _Done, experiment: Experiment) -> _Done:
     """The same path as another law and time have it, from where the arm stands now."""
-    told = replace(done.experiment, law=experiment.law, path_seconds=experiment.path_seconds)
-    return done._replace(experiment=told, trajectory=_timed(done.tracking, experiment))
+    told = replace(done.experiment, law=experiment.law, path_seconds=experiment.path_seconds, ease=experiment.ease)
+    return done._replace(experiment=told, trajectory=motion_of(done.tracking, experiment))
 
 
 def _same_pace(one: Experiment, other: Experiment) -> bool:
-    return one.law == other.law and one.path_seconds == other.path_seconds
+    return (one.law, one.path_seconds, one.ease) == (other.law, other.path_seconds, other.ease)
 
 
 def takes_long(robot: Robot, path: Path) -> bool:
@@ -111,6 +91,7 @@ class PathTracker(QObject):
         self._pending: tuple[str, Experiment] | None = None  # what the worker is at
         self._worker = LatestWorker(self)
         self._worker.done.connect(self._on_solved)
+        self.search = RepairSearch(session, motion, self, self)
         session.changed.connect(self._on_changed)
 
     def track_line(self) -> None:
@@ -121,18 +102,19 @@ class PathTracker(QObject):
         """Track the chosen trajectory, and play it."""
         self._track("trajectory", "Track trajectory")
 
-    def repairs(self) -> tuple[Repair, ...]:
-        """What would help with the points that were missed; nothing when none was."""
-        tracking = self._session.tracking
-        if tracking is None or tracking.complete:
-            return ()
-        offers = (self._free_pitch(tracking), self._ignore_limits(tracking), self._placement(tracking))
-        return tuple(offer for offer in offers if offer is not None)
-
-    def apply(self, repair: Repair) -> None:
-        """Change what the repair changes, and track again."""
-        self._session.edit(repair.title, repair.experiment)
-        self._track(self.kind, repair.title)
+    def apply(self, offer: Offer) -> None:
+        """Do what a repair says: in the experiment where it stands there, else with the path alone."""
+        now = self._session.experiment
+        if offer.experiment is None:
+            self._show(_Done(self.kind, now, offer.tracking, motion_of(offer.tracking, now), offer.title))
+            self._motion.play()
+            return
+        retimed = offer.tracking is self._session.tracking
+        self._session.edit(offer.title, offer.experiment if offer.name == "branch" else offer.experiment.at(now.q))
+        if retimed:
+            self._motion.play()
+        else:
+            self._track(self.kind, offer.title)
 
     @property
     def busy(self) -> bool:
@@ -151,6 +133,7 @@ class PathTracker(QObject):
         """End the worker, for the window closes."""
         self._pending = None
         self._worker.close()
+        self.search.close()
         self.closed.emit()
 
     def clear(self) -> None:
@@ -193,7 +176,7 @@ class PathTracker(QObject):
         self.kind = kind
         experiment = self._session.experiment
         try:
-            path = self._path(experiment)
+            path = path_of(kind, experiment)
             job = partial(_solved, kind, experiment, path, text)
             if takes_long(experiment.robot, path):
                 self._pending = (kind, experiment)
@@ -225,39 +208,3 @@ class PathTracker(QObject):
         self._done = [*self._done, done][-_REMEMBERED:]
         self._motion.load(done.trajectory, done.text)
         self._session.set_tracking(done.tracking)
-
-    def _path(self, experiment: Experiment) -> Path:
-        robot, task = experiment.robot, experiment.trajectory
-        if self.kind == "line":
-            return line_of(robot, experiment.line, experiment.q)
-        return task_path(robot, task, experiment.q)
-
-    def _with_task(self, **changes: Any) -> Experiment:
-        experiment = self._session.experiment
-        if self.kind == "line":
-            return replace(experiment, line=replace(experiment.line, **changes))
-        return replace(experiment, trajectory=replace(experiment.trajectory, **changes))
-
-    def _free_pitch(self, tracking: Tracking) -> Repair | None:
-        reachable = any(missed.kind != "reach" for missed in tracking.unreached)
-        if tracking.path.rotations is None or not reachable:
-            return None
-        tip = "Let the tool tilt as it likes: the position is kept, the orientation is not"
-        return Repair("Free pitch", tip, self._with_task(orientation="free"))
-
-    def _ignore_limits(self, tracking: Tracking) -> Repair | None:
-        if tracking.ignore_limits or not any(missed.kind == "limits" for missed in tracking.unreached):
-            return None
-        tip = "Go beyond the joint limits, as the source's program did; a real arm cannot"
-        return Repair("Ignore limits", tip, replace(self._session.experiment, ignore_limits=True))
-
-    def _placement(self, tracking: Tracking) -> Repair | None:
-        experiment, tip = self._session.experiment, "Move it to a place where the arm reaches all of it"
-        if self.kind == "line":
-            return Repair("Preset line", tip, replace(experiment, line=line_presets(tracking.robot)[0].task()))
-        task = experiment.trajectory
-        drawable = _PLACEMENTS.get(task.name)
-        if drawable is None and (task.placement is None or not is_shape(task)):
-            return None
-        placed = TrajectoryTask(drawable) if drawable is not None else replace(task, placement=None)
-        return Repair("Drawable placement", tip, replace(experiment, trajectory=placed))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -14,7 +15,7 @@ from rvsim.kinematics import inverse_kinematics_batch
 from rvsim.lab.named_paths import line_of
 from rvsim.lab.sentences import Units, length_number
 from rvsim.lab.shape_paths import placed_task, placement_of, task_path
-from rvsim.motion import Path, Tracking, track, trajectory_of
+from rvsim.motion import Path, Tracking, Trajectory, track, trajectory_of
 from rvsim.motion.honesty import SEVERITIES, Report, check
 from rvsim.motion.placement import Place, largest_in_place, nearest_place
 from rvsim.motion.turns import JointRange, existing
@@ -22,6 +23,7 @@ from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _SCALES_WHEN_MOVED = (0.75, 0.5, 0.25, 0.1, 0.03)
+_WORTH = 0.98  # of the time, to be quicker
 _LIFT = 0.05  # of the arm's size, along the tool's axis or up
 
 
@@ -30,7 +32,7 @@ class Offer:
     """A repair that works.
 
     Args:
-        name: stable: "free", "move", "scale", "move and scale", "branch", "split".
+        name: stable: "free", "move", "scale", "move and scale", "ignore", "branch", "split", "ease", "longer".
         title: for the button.
         tip: what it does and what came of trying it.
         tracking: what came of trying it.
@@ -53,10 +55,12 @@ def path_of(kind: str, experiment: Experiment) -> Path:
 
 def repairs(kind: str, experiment: Experiment, report: Report, units: Units) -> Iterator[Offer | None]:
     """Offers, one after the other; None in between, where the search may be given up."""
+    yield from _slower(experiment, report)
     try:
         if not report.tracking.complete:
             yield _free(kind, experiment, report)
             yield from _placed(kind, experiment, report, units)
+            yield _ignoring(kind, experiment, report)
         yield _split(report)
         yield from _other_start(kind, experiment, report)
     except NoClosedFormError:
@@ -98,6 +102,52 @@ def _outcome(tracking: Tracking) -> str:
     if tracking.complete:
         return f"Tried: all {tracking.samples} points are reached{jumps}."
     return f"Tried: {tracking.reached_count} of {tracking.samples} points are reached{jumps}."
+
+
+def _ignoring(kind: str, experiment: Experiment, report: Report) -> Offer | None:
+    tracking = report.tracking
+    if tracking.ignore_limits or not any(point.kind == "limits" for point in tracking.unreached):
+        return None
+    beyond = replace(experiment, ignore_limits=True)
+    tried = _tried(kind, beyond)
+    if tried is None or tried.reached_count <= tracking.reached_count:
+        return None
+    tip = f"Go beyond the joint limits, as programs of the sources did; a real arm cannot. {_outcome(tried)}"
+    return Offer("ignore", "Ignore limits", tip, tried, beyond)
+
+
+# --- the time ----------------------------------------------------------------------------------------------------
+
+
+def _slower(experiment: Experiment, report: Report) -> Iterator[Offer | None]:
+    """Where a joint cannot follow: slower there alone, or a time that it can keep."""
+    behind = next((finding for finding in report.of("pace") if finding.severity != "good"), None)
+    if behind is None:
+        return
+    slower = replace(experiment, ease=True)
+    seconds = _path_seconds(report.tracking, slower)
+    if seconds < _WORTH * behind.value:
+        tip = (
+            f"Only where a joint needs it, not as a whole: the path takes {seconds:.2f} s instead of "
+            f"{behind.value:.2f} s. Tried: no joint exceeds its speed or acceleration."
+        )
+        yield Offer("ease", f"Slow down only there: {seconds:.2f} s", tip, report.tracking, slower)
+    enough = math.ceil(100.0 * behind.value) / 100.0
+    tip = f"Ask for the time that the joints need, instead of {behind.limit:.2f} s. It moves as it does now."
+    yield Offer("longer", f"Take {enough:.2f} s", tip, report.tracking, replace(experiment, path_seconds=enough))
+
+
+def _path_seconds(tracking: Tracking, experiment: Experiment) -> float:
+    """How long the parts take that a time was asked for."""
+    trajectory = motion_of(tracking, experiment)
+    return sum(stretch.duration for stretch in trajectory.stretches if stretch.wanted) if trajectory else math.inf
+
+
+def motion_of(tracking: Tracking, experiment: Experiment) -> Trajectory | None:
+    """The motion from where the arm is, by the law and in the time that are asked for."""
+    return trajectory_of(
+        tracking, experiment.q, path_seconds=experiment.path_seconds, law=experiment.law, ease=experiment.ease
+    )
 
 
 # --- the place ---------------------------------------------------------------------------------------------------
@@ -224,7 +274,7 @@ def _other_start(kind: str, experiment: Experiment, report: Report) -> Iterator[
         tried = _tried(kind, moved)
         if tried is None or not tried.complete or len(tried.jumps) > len(tracking.jumps):
             continue
-        rank = _rank(check(tried, trajectory_of(tried, start)))
+        rank = _rank(check(tried, motion_of(tried, moved)))
         if rank < best_rank:
             best, best_rank = Offer("branch", "Start on another branch", _branch_tip(tried, rank), tried, moved), rank
     yield best

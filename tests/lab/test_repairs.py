@@ -21,7 +21,9 @@ def experiment_of(name: str, path: str = "line") -> Experiment:
 
 
 def report_of(kind: str, experiment: Experiment) -> Report:
-    tracking = track(experiment.robot, path_of(kind, experiment), near=experiment.q)
+    tracking = track(
+        experiment.robot, path_of(kind, experiment), near=experiment.q, ignore_limits=experiment.ignore_limits
+    )
     return check(tracking, trajectory_of(tracking, experiment.q))
 
 
@@ -33,7 +35,7 @@ def offers(kind: str, experiment: Experiment) -> dict[str, Offer]:
 @pytest.mark.parametrize(
     ("name", "kind", "path", "names"),
     [
-        ("rv-m1", "line", "line", {"free", "move"}),
+        ("rv-m1", "line", "line", {"free", "move", "ignore"}),
         ("ur5e", "trajectory", "ellipse", {"free", "move", "scale"}),
         ("rv-m1", "trajectory", "letter-raw", {"move and scale"}),
         ("ur5e", "trajectory", "ellipse-moved", {"branch"}),

@@ -12,6 +12,7 @@ from rvsim.gui.panels.path_result import ResultSection
 from rvsim.gui.panels.path_trajectory import TrajectorySection
 from rvsim.gui.path_drag import PathDrag
 from rvsim.gui.path_preview import PathPreview
+from rvsim.gui.point_clicks import PointClicks
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
@@ -40,8 +41,14 @@ class PathPanel(QWidget):
         self.preview = PathPreview(session, preferences, stage, self)
         tracker.closed.connect(self.preview.close_worker)
         self.path_drag = None if stage is None else PathDrag(session, preferences, stage, self)
+        self.point_clicks = None if stage is None else PointClicks(session, preferences, stage, self)
+        if self.path_drag is not None and self.point_clicks is not None:  # one at a time
+            self.path_drag.switched.connect(lambda on: self._end_other(on, self.point_clicks))
+            self.point_clicks.switched.connect(lambda on: self._end_other(on, self.path_drag))
         self.line = LineSection(session, preferences, tracker)
-        self.trajectory = TrajectorySection(session, preferences, tracker, self.preview, self.path_drag)
+        self.trajectory = TrajectorySection(
+            session, preferences, tracker, self.preview, self.path_drag, self.point_clicks
+        )
         self.pace = PaceSection(session, preferences)
         self.result = ResultSection(session, preferences, tracker)
         inside = QWidget()
@@ -53,15 +60,23 @@ class PathPanel(QWidget):
             column.addWidget(section)
         column.addStretch(1)
         self._scroll = scrolled(inside)
+        self._scrolled_to = -1  # to show what came of tracking
         column_of(self, self._scroll)
         session.changed.connect(self._on_changed)
         session.tracking_changed.connect(self._on_tracking)
+        tracker.search.changed.connect(self._on_repairs)
         self._show(session.experiment)
 
     def set_seen(self, seen: bool) -> None:
-        """Whoever looks at another panel does not drag the path."""
-        if not seen and self.path_drag is not None:
-            self.path_drag.switch(False)
+        """Whoever looks at another panel neither drags the path nor puts points."""
+        for hand in (self.path_drag, self.point_clicks):
+            if not seen and hand is not None:
+                hand.switch(False)
+
+    def _end_other(self, on: bool, other: PathDrag | PointClicks | None) -> None:
+        """The path is dragged, or points are put: not both."""
+        if on and other is not None:
+            other.switch(False)
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         if (
@@ -78,9 +93,15 @@ class PathPanel(QWidget):
             # When the layout has made room for the sentence and the buttons, on a low screen too.
             QTimer.singleShot(0, self, self._show_result)
 
+    def _on_repairs(self) -> None:
+        """What is offered later comes into sight too, unless somebody has scrolled meanwhile."""
+        if self._scroll.verticalScrollBar().value() == self._scrolled_to:
+            QTimer.singleShot(0, self, self._show_result)
+
     def _show_result(self) -> None:
         self._scroll.ensureWidgetVisible(self.result, 0, 0)
         self._scroll.horizontalScrollBar().setValue(0)
+        self._scrolled_to = self._scroll.verticalScrollBar().value()
 
     def _show(self, experiment: Experiment) -> None:
         self.line.show_task(experiment)

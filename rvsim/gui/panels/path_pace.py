@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from PySide6.QtWidgets import QGroupBox, QHBoxLayout
+from PySide6.QtWidgets import QCheckBox, QGroupBox, QHBoxLayout
 
 from rvsim.experiment import Experiment
 from rvsim.gui.preferences import Preferences
@@ -36,6 +36,10 @@ class PaceSection(QGroupBox):
         self.seconds.quantity_changed.connect(lambda value: self._edit("path time", path_seconds=value))
         self.seconds.refused.connect(session.warn)
         self.seconds.editingFinished.connect(session.end_stroke)
+        self.ease = QCheckBox("Slow down only where a joint needs it")
+        self.ease.setObjectName("path_ease")
+        self.ease.setToolTip("Where a joint cannot go as fast as the law has it: off slows the whole stretch down")
+        self.ease.clicked.connect(lambda on: self._edit("", ease=on))
         times = QHBoxLayout()
         times.setSpacing(6)
         times.addWidget(self.time, 1)
@@ -43,12 +47,14 @@ class PaceSection(QGroupBox):
         rows = form()
         rows.addRow("Law", self.law)
         rows.addRow("Time", times)
+        rows.addRow(self.ease)
         self.setLayout(rows)
         self.show_task(session.experiment)
 
     def show_task(self, experiment: Experiment) -> None:
         """Show the pace of the experiment."""
         select(self.law, experiment.law)
+        self.ease.setChecked(experiment.ease)
         seconds = experiment.path_seconds
         select(self.time, _CALM if seconds is None else _QUICK if seconds == 0.0 else _SECONDS)
         self.seconds.setVisible(bool(seconds))

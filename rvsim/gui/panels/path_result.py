@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGroupBox, QHBoxLayout, QLabel, QProgressBar, QPushButton
+from PySide6.QtWidgets import QGroupBox, QHBoxLayout, QLabel, QProgressBar
 
 from rvsim.gui.panels.path_points import PathPointsDialog
+from rvsim.gui.panels.path_repairs import RepairList
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import shown_units
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
-from rvsim.gui.tracker import PathTracker, Repair
+from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import button, form
 from rvsim.lab.sentences import length_error, tracking_sentence
 from rvsim.motion import Tracking
@@ -44,8 +45,7 @@ class ResultSection(QGroupBox):
         self.cancel = button("cancel_tracking_button", "Cancel", "Give up working this path out", tracker.cancel)
         tip = "Every point of the path with what came of it; a click moves the arm there"
         self.points = button("path_points_button", "Points…", tip, self._show_points)
-        self._repairs = QHBoxLayout()
-        self._repairs.setSpacing(6)
+        self.repairs = RepairList(tracker, "", told=False)
         rows = form()
         reached = QHBoxLayout()
         reached.addWidget(self.reached, 1)
@@ -60,7 +60,7 @@ class ResultSection(QGroupBox):
         waiting.addWidget(self.cancel)
         rows.addRow(waiting)
         rows.addRow(self.sentence)
-        rows.addRow(self._repairs)
+        rows.addRow(self.repairs)
         self.setLayout(rows)
         self.show_tracking(None)
         self.show_busy(False)
@@ -72,6 +72,8 @@ class ResultSection(QGroupBox):
         """Say the result in the preferred units, now and when the next path is tracked."""
         if name in ("angle_unit", "length_unit"):
             self._tracker.units = shown_units(self._preferences)
+            if self._tracker.search.report is not None:
+                self._tracker.search.look()
             self.show_tracking(self._session.tracking)
 
     def _show_points(self) -> None:
@@ -88,10 +90,6 @@ class ResultSection(QGroupBox):
 
     def show_tracking(self, tracking: Tracking | None) -> None:
         """Show the result, or what to do to get one."""
-        while self._repairs.count():
-            item = self._repairs.takeAt(0)
-            if item is not None and (old := item.widget()) is not None:
-                old.deleteLater()
         if tracking is None:
             for label in (self.reached, self.rms, self.largest, self.between, self.time):
                 label.setText("\u2013")
@@ -105,8 +103,6 @@ class ResultSection(QGroupBox):
         self.points.setEnabled(True)
         self.sentence.setText(tracking_sentence(tracking, self._tracker.units))
         set_role(self.sentence, level="good" if tracking.complete else "warning")
-        for repair in self._tracker.repairs():
-            self._repairs.addWidget(self._repair_button(repair))
 
     def _deviation(self, value: float | None, tracking: Tracking) -> str:
         return "\u2013" if value is None else length_error(tracking.robot, value, self._tracker.units)
@@ -138,7 +134,3 @@ class ResultSection(QGroupBox):
         return "Where the tool is less where it should be, at the reached points<table><tr>{}</tr></table>".format(
             "</tr><tr>".join(cells)
         )
-
-    def _repair_button(self, repair: Repair) -> QPushButton:
-        name = "repair_" + repair.title.lower().replace(" ", "_")
-        return button(name, repair.title, repair.tip, lambda: self._tracker.apply(repair))

@@ -10,6 +10,7 @@ import pytest
 from PySide6.QtWidgets import QComboBox, QPushButton, QSpinBox
 from pytestqt.qtbot import QtBot
 
+from rvsim.experiment import TrajectoryTask
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.path import PathPanel
 from rvsim.gui.tracker import PathTracker
@@ -61,23 +62,41 @@ def test_two_steps_typed_one_after_the_other_are_two_undo_steps(panel: PathPanel
     assert box.value() == pytest.approx(0.05)
 
 
-def repairs(panel: PathPanel) -> set[str]:
-    buttons = panel.result.findChildren(QPushButton)
-    return {button.text() for button in buttons if button.objectName().startswith("repair_")}
+def repairs(panel: PathPanel, qtbot: QtBot) -> dict[str, QPushButton]:
+    """What is offered when the search is over: button texts by the names of the repairs."""
+    search = panel.result._tracker.search
+    qtbot.waitUntil(lambda: not search.busy)
+    found = {button.objectName(): button for button in panel.result.findChildren(QPushButton)}
+    return {offer.name: found[f"repair_{offer.name.replace(' ', '_')}"] for offer in search.offers}
 
 
-def test_missed_points_come_with_what_would_help(panel: PathPanel) -> None:
+def track_the_sources_line(panel: PathPanel) -> None:
     preset = line_presets(panel.line._session.robot)[-1]
     for end, point in (("start", preset.start), ("end", preset.end)):
         for box, value in zip(panel.line.boxes[end], point, strict=True):
             box.setValue(1e3 * value)
     panel.line.button.click()
-    assert repairs(panel) == {"Free pitch", "Ignore limits", "Preset line"}
     assert "reached points" in panel.result.rms.text()
 
 
+def test_missed_points_come_with_the_repairs_that_the_check_page_offers(panel: PathPanel, qtbot: QtBot) -> None:
+    track_the_sources_line(panel)
+    texts = {name: button.text() for name, button in repairs(panel, qtbot).items()}
+    assert set(texts) == {"free", "move", "ignore"}
+    assert texts["free"] == "Free pitch"
+    assert texts["move"].startswith("Move by (")
+    assert texts["ignore"] == "Ignore limits"
+
+
+def test_repairs_are_told_in_the_units_that_are_preferred_now(panel: PathPanel, preferences, qtbot: QtBot) -> None:
+    track_the_sources_line(panel)
+    assert repairs(panel, qtbot)["move"].text().endswith(" mm")
+    preferences.set("length_unit", "m")
+    assert repairs(panel, qtbot)["move"].text().endswith(" m")
+
+
 def test_the_result_is_said_in_the_preferred_units(panel: PathPanel, preferences) -> None:
-    test_missed_points_come_with_what_would_help(panel)
+    track_the_sources_line(panel)
     sentence, session = panel.result.sentence, panel.line._session
     assert "−110°" in sentence.text()
     assert " mm " in panel.result.rms.text()
@@ -90,32 +109,31 @@ def test_the_result_is_said_in_the_preferred_units(panel: PathPanel, preferences
     assert session.sentences[-1][0] == sentence.text()
 
 
-@pytest.mark.parametrize(
-    ("name", "reached"), [("repair_free_pitch", 6), ("repair_ignore_limits", 11), ("repair_preset_line", 51)]
-)
+@pytest.mark.parametrize(("name", "reached"), [("free", 6), ("ignore", 11), ("move", 11)])
 def test_each_repair_of_the_sources_line_reaches_more_than_four_points(
-    panel: PathPanel, name: str, reached: int
+    panel: PathPanel, name: str, reached: int, qtbot: QtBot
 ) -> None:
-    test_missed_points_come_with_what_would_help(panel)
-    panel.findChild(QPushButton, name).click()
+    track_the_sources_line(panel)
+    repairs(panel, qtbot)[name].click()
     assert panel.line._session.tracking.reached_count == reached
 
 
-def test_a_letter_out_of_reach_offers_the_drawable_placement(panel: PathPanel) -> None:
+def test_a_letter_out_of_reach_is_moved_and_scaled_to_where_it_can_be_drawn(panel: PathPanel, qtbot: QtBot) -> None:
     choose(panel, "trajectory_selector", "letter-raw")
     panel.trajectory.button.click()
-    assert repairs(panel) == {"Drawable placement"}
+    offered = repairs(panel, qtbot)
+    assert set(offered) == {"move and scale"}
     assert panel.result.rms.text() == "–"
-    panel.findChild(QPushButton, "repair_drawable_placement").click()
+    offered["move and scale"].click()
     tracking = panel.line._session.tracking
     assert tracking.complete
     assert not np.isnan(tracking.q).any()
 
 
-def test_limits_that_count_again_bring_back_what_is_reached_within_them(panel: PathPanel) -> None:
+def test_limits_that_count_again_bring_back_what_is_reached_within_them(panel: PathPanel, qtbot: QtBot) -> None:
     session = panel.line._session
-    test_missed_points_come_with_what_would_help(panel)
-    panel.findChild(QPushButton, "repair_ignore_limits").click()
+    track_the_sources_line(panel)
+    repairs(panel, qtbot)["ignore"].click()
     assert session.tracking.complete
     session.edit("Respect limits", replace(session.experiment, ignore_limits=False))
     assert session.tracking.reached_count == 4
@@ -150,6 +168,32 @@ def test_a_result_goes_with_what_it_was_the_result_of_and_undo_brings_it_back(pa
     panel.line.button.click()
     assert session.tracking is not None
     assert session.tracking is not tracking
+
+
+def seconds_on_the_path(tracker: PathTracker) -> float:
+    assert tracker.trajectory is not None
+    return tracker.trajectory.duration - tracker.trajectory.path_start
+
+
+def test_a_time_too_short_is_said_and_a_click_slows_the_path_down_only_where_it_must(
+    panel: PathPanel, qtbot: QtBot
+) -> None:
+    session, tracker = panel.line._session, panel.result._tracker
+    session.edit("pace", replace(session.experiment, path_seconds=0.8, trajectory=TrajectoryTask("letter-board")))
+    panel.trajectory.button.click()
+    as_a_whole = seconds_on_the_path(tracker)
+    offered = repairs(panel, qtbot)
+    assert set(offered) == {"ease", "longer"}
+    seconds = float(offered["ease"].text().removeprefix("Slow down only there: ").removesuffix(" s"))
+    offered["ease"].click()
+    assert session.experiment.ease
+    assert seconds_on_the_path(tracker) == pytest.approx(seconds, abs=0.01)
+    assert seconds < 0.6 * as_a_whole
+    assert not repairs(panel, qtbot)
+    tracker._motion.pause()
+    while session.experiment.ease:
+        session.undo_stack.undo()
+    assert seconds_on_the_path(tracker) == pytest.approx(as_a_whole)
 
 
 def test_a_long_path_is_worked_out_beside_the_window_and_can_be_given_up(panel: PathPanel, qtbot: QtBot) -> None:

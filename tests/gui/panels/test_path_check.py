@@ -51,8 +51,7 @@ def page_of(session_with, preferences, shown, qtbot) -> Iterator[Make]:
         return page
 
     yield make
-    for page, tracker, _ in kept:
-        page.close_worker()
+    for _, tracker, _ in kept:
         tracker.close()
 
 
@@ -87,7 +86,7 @@ def test_a_click_on_a_finding_shows_the_arm_at_that_moment(page_of: Make, qtbot:
 
 def test_a_repair_does_what_its_button_says(page_of: Make, qtbot: QtBot) -> None:
     page = page_of("ur5e", "ellipse")
-    qtbot.waitUntil(lambda: not page.worker.busy)
+    qtbot.waitUntil(lambda: not page.repairs.search.busy)
     move = page.findChild(QPushButton, "check_repair_move")
     assert move is not None
     assert move.text().startswith("Move by (")
@@ -106,15 +105,16 @@ def test_a_clean_path_offers_no_repairs(page_of: Make) -> None:
     page = page_of("al5b", "star")
     assert page.summary.text() == "✓ Nothing speaks against running it."
     assert page.repair_box.isHidden()
-    assert not page.worker.busy
+    assert not page.repairs.search.worker.busy
 
 
 def test_a_search_that_is_given_up_offers_nothing_later(page_of: Make, qtbot: QtBot) -> None:
     page = page_of("ur5e", "ellipse")
-    page.cancel()
-    page.close_worker()
-    assert not page.offers
-    assert page.searching.isHidden()
+    search = page.repairs.search
+    qtbot.mouseClick(page.repairs.cancel_button, Qt.MouseButton.LeftButton)
+    search.close()
+    assert not search.offers
+    assert page.repairs.searching.isHidden()
 
 
 def test_the_best_way_home_is_found_and_gone(page_of: Make) -> None:

@@ -221,7 +221,7 @@ def test_another_law_or_time_times_again_without_solving(desk_of) -> None:
     assert trajectory.duration - trajectory.path_start >= 60.0
 
 
-def test_a_path_out_of_reach_says_how_much_of_it_is_not(desk_of) -> None:
+def test_a_path_out_of_reach_says_how_much_of_it_is_not(desk_of, qtbot: QtBot) -> None:
     desk = desk_of("rv-m1")
     desk.choose("trajectory_selector", "star")
     desk.panel.findChild(QuantityBox, "path_scale").setValue(2.0)
@@ -231,7 +231,8 @@ def test_a_path_out_of_reach_says_how_much_of_it_is_not(desk_of) -> None:
     assert any(line.dashed for line in desk.lines(LAYER))
     desk.track()
     assert desk.session.tracking.reached_count / 101 == share
-    desk.click("repair_drawable_placement")
+    qtbot.waitUntil(lambda: not desk.tracker.search.busy)
+    desk.click("repair_scale")
     assert desk.session.tracking.complete
 
 
