@@ -38,10 +38,10 @@ def take_board(url: str, options: ArmOptions, now: float) -> tuple[VirtualArm, f
         kept = _boards.get(options.board)
         if kept is None:
             kept = _boards[options.board] = _Kept(new_arm(options), described, closed_at=now)
-        elif kept.open:
-            raise DeviceError(url, "this port is open already", "Close it there first; two programs garble each other.")
         elif kept.options != described:
             raise DeviceError(url, f"the board “{options.board}” is another arm", "Give this one another board=NAME.")
+        elif kept.open:
+            raise DeviceError(url, "this port is open already", "Close it there first; two programs garble each other.")
         kept.open = True
         return kept.arm, kept.closed_at
 

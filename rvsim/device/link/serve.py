@@ -96,8 +96,13 @@ class Server:
         return self._paced.baud
 
     @property
+    def board_baud(self) -> int:
+        """The board's rate [bit/s]."""
+        return self._paced.board_baud
+
+    @property
     def matches(self) -> bool:
-        """Whether that is the board's rate."""
+        """Whether the two are the same."""
         return self._paced.matches
 
     def wait(self, seconds: float) -> bool:
