@@ -238,10 +238,5 @@ def analog_reply(volts: Iterable[float]) -> bytes:
 
 
 def text_reply(text: str) -> bytes:
-    """To `VER`, `R4`, `RDFLT`: the text and CR; what is not ASCII becomes "?"."""
+    """To `VER`, `R4`, `RDFLT`, and (in quotation marks) to `SS`: the text and CR; what is not ASCII becomes "?"."""
     return text.encode("ascii", "replace") + CR
-
-
-def startup_reply(text: str) -> bytes:
-    """To `SS`: the startup text between quotation marks, and CR."""
-    return text_reply(f'"{text}"')

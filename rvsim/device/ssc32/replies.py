@@ -48,9 +48,10 @@ class _Answer(NamedTuple):
 
 
 _EVERY = frozenset(range(256))
-# Old firmware adds the offset of up to 100 µs to a pulse. Answers to Q would be pulses of 430 µs ("+") and 460 µs
-# ("."): one of these that comes late or twice is not taken for a pulse.
-_PULSES = frozenset((0, *range(40, 256))) - frozenset(b"+.")
+# Old firmware adds the offset of up to 100 µs to a pulse, and perhaps to 0 where there is none. Answers to Q would be
+# pulses of 430 µs ("+") and 460 µs ("."): one of these that comes late or twice is not taken for a pulse.
+_LARGEST_OFFSET = 10  # in a pulse's byte
+_PULSES = frozenset((*range(_LARGEST_OFFSET + 1), *range(50 - _LARGEST_OFFSET, 256))) - frozenset(b"+.")
 _TEXT = frozenset((*range(0x20, 0x7F), *CR))
 
 
@@ -68,11 +69,13 @@ def _text(pattern: str, value: Callable[[str], Value] = str) -> _Answer:
     return _Answer(_TEXT, lambda data: data.endswith(CR) or len(data) > _LONGEST_TEXT, read)
 
 
+def _pulse_us(byte: int) -> int:
+    return PULSE_STEP_US * byte if byte > _LARGEST_OFFSET else 0
+
+
 _ANSWERS: dict[type[Any], Callable[[Any], _Answer]] = {
     QueryMoving: lambda _: _bytes(frozenset(b"+."), 1, lambda data: data == b"+"),
-    QueryPulses: lambda query: _bytes(
-        _PULSES, len(query.channels), lambda data: tuple(PULSE_STEP_US * byte for byte in data)
-    ),
+    QueryPulses: lambda query: _bytes(_PULSES, len(query.channels), lambda data: tuple(map(_pulse_us, data))),
     ReadDigital: lambda query: _bytes(
         frozenset(b"01"), len(query.inputs), lambda data: tuple(byte == ord("1") for byte in data)
     ),

@@ -102,7 +102,7 @@ def _answer(command: Command, value: Value) -> bytes:
         case ReadAnalog(), tuple():
             return board_side.analog_reply(value)
         case ShowStartup(), str():
-            return board_side.startup_reply(value)
+            return board_side.text_reply(f'"{value}"')
         case _:
             return board_side.text_reply(str(value))
 
