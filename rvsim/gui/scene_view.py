@@ -30,6 +30,7 @@ _KEY_ORBIT = math.radians(5.0)
 _KEY_PAN = 30.0  # [pixels]
 _WHEEL_ZOOM = 1.16  # a notch of the wheel
 _MOVE_MS = 260
+_CLICK_ROOM = 4.0  # [pixels] a press that moves by less is a click
 _SMALLEST_BOX = 6.0  # [pixels] less is a click, not a box
 _REFIT = 0.25  # an arm whose reach differs by more than this share is framed anew
 
@@ -73,10 +74,12 @@ class SceneView(QWidget):
     Signals:
         camera_changed: (Camera) the view has moved.
         painted: (milliseconds) a frame was painted in that time.
+        clicked: (place, modifiers) the left button went down and up there, and nothing was dragged.
     """
 
     camera_changed = Signal(object)
     painted = Signal(float)
+    clicked = Signal(QPointF, Qt.KeyboardModifier)
 
     def __init__(self, renderer_factory: Callable[[QWidget], Renderer], parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -87,6 +90,7 @@ class SceneView(QWidget):
         self.setMinimumSize(160, 120)
         self.animated = True
         self.grabber: Grabber | None = None
+        self.takes_clicks = False  # then a hand that trembles does not turn the view, nor a double click centre it
         self._grabbing = False
         self._scene: Scene | None = None
         self._camera = Camera(np.zeros(3), 3.0)
@@ -256,6 +260,7 @@ class SceneView(QWidget):
         if self._grabbing:
             return
         self._pressed = self._last = event.position()
+        self._strayed = False
         self._panning = _pans(event)
         self._show_cursor()
 
@@ -265,6 +270,9 @@ class SceneView(QWidget):
         if self._pressed is None:
             self._point(at, event.modifiers())
             return
+        if not self._strayed and self.takes_clicks and _distance(self._pressed, at) < _CLICK_ROOM:
+            return
+        self._strayed = True
         step, self._last = at - self._last, at
         if self._choosing_box:
             self._box.stretch(self._pressed, at)
@@ -293,6 +301,8 @@ class SceneView(QWidget):
         pressed, self._pressed = self._pressed, None
         if pressed is not None and self._choosing_box:
             self._zoom_to_box(pressed, event.position())
+        elif pressed is not None and not self._strayed and not self._panning:
+            self.clicked.emit(pressed, event.modifiers())
         self._show_cursor()
 
     def _zoom_to_box(self, start: QPointF, end: QPointF) -> None:
@@ -309,7 +319,7 @@ class SceneView(QWidget):
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Centres on what is under the pointer."""
-        if self._scene is None or event.button() != Qt.MouseButton.LeftButton:
+        if self._scene is None or event.button() != Qt.MouseButton.LeftButton or self.takes_clicks:
             return
         at = event.position()
         point = point_under(self._scene, self._goal(), at.x(), at.y(), self.width(), self.height())
@@ -365,6 +375,10 @@ class SceneView(QWidget):
             self.setCursor(Qt.CursorShape.SizeAllCursor if self._panning else Qt.CursorShape.ClosedHandCursor)
         else:
             self.unsetCursor()
+
+
+def _distance(one: QPointF, other: QPointF) -> float:
+    return math.hypot(one.x() - other.x(), one.y() - other.y())
 
 
 def _pans(event: QMouseEvent) -> bool:

@@ -11,6 +11,8 @@ from rvsim.scene.primitives import Box, Capsule, Dots, Item, Labels, Polyline, S
 
 FloatArray = NDArray[np.float64]
 
+_EDGE_ON = 0.02  # sine of the angle between a line of sight and a plane that cannot be clicked on
+
 
 def point_under(
     scene: Scene, camera: Camera, x: float, y: float, width: float, height: float, within: float = 30.0
@@ -48,6 +50,18 @@ def floor_point(ray: Ray, bounds: FloatArray) -> FloatArray | None:
     point: FloatArray = ray.origin + way * ray.direction
     inside = np.abs(point - bounds.mean(axis=0))[:2] <= np.ptp(bounds, axis=0)[:2]
     return point if way > 0.0 and bool(inside.all()) else None
+
+
+def plane_point(ray: Ray, point: FloatArray, normal: FloatArray) -> FloatArray | None:
+    """Where a line of sight meets the plane through a point (3,) square to a unit normal (3,).
+
+    None where that is behind the eye, or where the plane is seen edge-on, within about a degree.
+    """
+    sine = float(ray.direction @ normal)
+    if abs(sine) < _EDGE_ON:
+        return None
+    way = float((point - ray.origin) @ normal) / sine
+    return np.asarray(ray.origin + way * ray.direction) if way > 0.0 else None
 
 
 def _points(item: Item) -> FloatArray:

@@ -15,8 +15,10 @@ from rvsim.errors import ExpressionError, PathFileError
 from rvsim.experiment import Shape
 from rvsim.experiment.shapes import PointsShape
 from rvsim.expressions import evaluate_in
+from rvsim.gui.panels.path_clicks import ClickRows
 from rvsim.gui.panels.path_shape_rows import ShapeEditor
 from rvsim.gui.panels.tables import RIGHT, Index, plain_table
+from rvsim.gui.point_clicks import PointClicks
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, display, format_number, length_kind
 from rvsim.gui.widgets import button, combo, select
@@ -103,10 +105,12 @@ class _PointsModel(QAbstractTableModel):
 class PointRows(ShapeEditor):
     """The table, its buttons, and how the points are joined."""
 
-    def __init__(self, robot: Robot, preferences: Preferences) -> None:
+    def __init__(self, robot: Robot, preferences: Preferences, clicks: PointClicks | None = None) -> None:
         super().__init__()
         self._robot = robot
         self._shape: PointsShape | None = None
+        self.is_example = False  # whether the points are ours: the first click puts its own in their place
+        self.by_click = None if clicks is None else ClickRows(robot, preferences, clicks)
         self.model = _PointsModel(robot, preferences, self)
         self.model.edited.connect(self._on_points)
         self.model.refused.connect(self.refused)
@@ -114,6 +118,7 @@ class PointRows(ShapeEditor):
         row = self.table.fontMetrics().height() + 8
         self.table.verticalHeader().setDefaultSectionSize(row)
         self.table.setFixedHeight((_SHOWN_ROWS + 1) * row + 8)
+        self.table.selectionModel().currentRowChanged.connect(self._show_chosen)
         self.join = combo("points_join", "How the points are joined", _JOINS)
         self.join.activated.connect(lambda _: self._edit(join=self.join.currentData()))
         self.samples = QSpinBox()
@@ -151,6 +156,10 @@ class PointRows(ShapeEditor):
         column.setSpacing(4)
         column.addWidget(self.table)
         column.addLayout(buttons)
+        if self.by_click is not None:
+            column.addWidget(self.by_click)
+            self.by_click.picked.connect(self.add_place)
+            self.by_click.refused.connect(self.refused)
         column.addLayout(ends)
 
     def show_shape(self, shape: Shape) -> None:
@@ -162,10 +171,16 @@ class PointRows(ShapeEditor):
             if 0 <= row < len(shape.points):
                 self.table.selectRow(row)
         self._shape = shape
+        self._show_chosen()
         select(self.join, shape.join)
         self.samples.setVisible(shape.join != "none")
         with QSignalBlocker(self.samples):
             self.samples.setValue(shape.samples)
+
+    def _show_chosen(self) -> None:
+        """A plane for clicks goes through the chosen point."""
+        if self.by_click is not None and len(self.model.points):
+            self.by_click.show_points(self.model.points, self._row())
 
     # --- what the buttons do ---------------------------------------------------------------------------------------
 
@@ -173,6 +188,16 @@ class PointRows(ShapeEditor):
         """A copy of the chosen point after it."""
         row = self._row()
         self._on_points(np.insert(self.model.points, row + 1, self.model.points[row], axis=0), row + 1)
+
+    def add_place(self, place: FloatArray) -> None:
+        """A point (3,) after the chosen one; the first of one's own begins a path of its own."""
+        if len(self.model.points) >= MOST_POINTS:
+            self.refused.emit(f"Not added: a path has at most {MOST_POINTS} points.")
+        elif self.is_example:
+            self._on_points(place[None], 0)
+        else:
+            row = self._row() + 1
+            self._on_points(np.insert(self.model.points, row, place, axis=0), row)
 
     def delete(self) -> None:
         """Take the chosen points out; one always stays."""

@@ -19,6 +19,7 @@ from rvsim.gui.panels.path_shape_points import MOST_POINTS, PointRows
 from rvsim.gui.panels.path_shape_rows import ShapeRows
 from rvsim.gui.path_drag import PathDrag
 from rvsim.gui.path_preview import PathPreview
+from rvsim.gui.point_clicks import PointClicks
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import length_kind
 from rvsim.gui.quantity_box import QuantityBox
@@ -47,9 +48,11 @@ class TrajectorySection(QGroupBox):
         tracker: PathTracker,
         preview: PathPreview,
         drag: PathDrag | None,
+        clicks: PointClicks | None = None,
     ) -> None:
         super().__init__("Trajectory")
         self._session, self._preferences, self._preview = session, preferences, preview
+        self._clicks = clicks
         self._editor: Editor | None = None
         self._edited: tuple[type[Shape], str] | None = None  # what the editor is for: the kind, and the arm's unit
         self.selector = combo("trajectory_selector", "Trajectory")
@@ -132,16 +135,20 @@ class TrajectorySection(QGroupBox):
             self._change_editor(shape, robot)
             self._edited = wanted
         if shape is not None and self._editor is not None:
+            if isinstance(self._editor, PointRows):
+                self._editor.is_example = task.shape is None
             self._editor.show_shape(shape)
 
     def _change_editor(self, shape: Shape | None, robot: Robot) -> None:
+        if self._clicks is not None:
+            self._clicks.switch(False)
         if self._editor is not None:
             self._editor.setParent(None)
             self._editor.deleteLater()
             self._editor = None
         if shape is None:
             return
-        self._editor = _editor_of(shape, robot, self._preferences)
+        self._editor = _editor_of(shape, robot, self._preferences, self._clicks)
         self._editor.edited.connect(self._on_shape)
         self._editor.refused.connect(self._session.warn)
         self._editor.finished.connect(self._session.end_stroke)
@@ -201,11 +208,11 @@ class TrajectorySection(QGroupBox):
         self._session.edit(text, replace(self._session.experiment, trajectory=task), merge=merge)
 
 
-def _editor_of(shape: Shape, robot: Robot, preferences: Preferences) -> Editor:
+def _editor_of(shape: Shape, robot: Robot, preferences: Preferences, clicks: PointClicks | None) -> Editor:
     if isinstance(shape, FormulaShape):
         return FormulaRows(robot, preferences)
     if isinstance(shape, PointsShape):
-        return PointRows(robot, preferences)
+        return PointRows(robot, preferences, clicks)
     return ShapeRows(type(shape), robot, preferences)
 
 
