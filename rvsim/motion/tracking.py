@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rvsim.motion.candidates import branches_on, useful_columns
+from rvsim.motion.coarse_to_fine import coarse_to_fine
 from rvsim.motion.continuity import continuous
 from rvsim.motion.path import Path
 from rvsim.motion.reasons import limit_culprit
-from rvsim.motion.sequence import best_sequence
+from rvsim.motion.sequence import Sequence, best_sequence
 from rvsim.motion.tracking_result import Tracking, Unreached, UnreachedKind
 from rvsim.motion.turns import JointRange, existing
 from rvsim.robot import Robot
@@ -20,6 +21,8 @@ from rvsim.robot.arrays import FloatArray, frozen_array
 # How many points are solved at a time, and how many sampled branches of a point go into the choice: they enter squared.
 _BLOCK = 256
 _MOST = 48
+# With so many joints a free orientation is sampled; from how many points on a few of them are solved first.
+_SAMPLED, _LONG = (5, 6), 256
 
 __all__ = ["Tracking", "Unreached", "UnreachedKind", "track"]
 
@@ -42,7 +45,7 @@ def track(robot: Robot, path: Path, *, near: ArrayLike | None = None, ignore_lim
     present = robot.home if near is None else frozen_array("near", near, (robot.dof,))
     joints = JointRange.of(robot, ignore_limits)
     with_rotation = path.rotations is not None and robot.dof > 3
-    q, sure = best_sequence(robot, _usable(robot, path, present, joints), present, joints, with_rotation)
+    q, sure = _sequence(robot, path, present, joints, with_rotation)
     elapsed = perf_counter() - start
     return Tracking(
         robot,
@@ -53,6 +56,15 @@ def track(robot: Robot, path: Path, *, near: ArrayLike | None = None, ignore_lim
         solve_seconds=elapsed,
         ignore_limits=ignore_limits,
     )
+
+
+def _sequence(robot: Robot, path: Path, near: FloatArray, joints: JointRange, with_rotation: bool) -> Sequence:
+    """The best sequence along a path; a long one of free orientation from a few of its points, if that will do."""
+    if path.rotations is None and robot.dof in _SAMPLED and path.samples > _LONG:
+        q = coarse_to_fine(robot, path, near, joints, lambda part: _usable(robot, part, near, joints))
+        if q is not None:
+            return Sequence(q, True)
+    return best_sequence(robot, _usable(robot, path, near, joints), near, joints, with_rotation)
 
 
 def find_jumps(robot: Robot, q: FloatArray, with_rotation: bool) -> tuple[int, ...]:

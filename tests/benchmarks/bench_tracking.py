@@ -10,6 +10,7 @@ from __future__ import annotations
 import statistics
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import roboticstoolbox
@@ -102,11 +103,20 @@ def denser(path: Path, samples: int) -> Path:
     return Path(path.name, points, np.broadcast_to(path.rotations[0], (samples, 3, 3)), path.title)
 
 
+def freed(path: Path) -> Path:
+    """The same places in any orientation."""
+    return replace(path, rotations=None, title=f"{path.title}, orientation free")
+
+
 def main() -> None:
     ur5e, rrrp = rvsim.load_robot("ur5e"), rvsim.load_robot("rrrp")
     ellipse, spiral = named_path("ellipse-moved", ur5e), named_path("spiral", rrrp)
     print_races("Tracking, all branches and the best sequence of them", races(ur5e, ellipse))
-    works = [(rrrp, spiral, MOST["spiral"]), *((ur5e, denser(ellipse, n), MOST["long"] * n / LONG[0]) for n in LONG)]
+    works = [
+        (rrrp, spiral, MOST["spiral"]),
+        *((ur5e, denser(ellipse, n), MOST["long"] * n / LONG[0]) for n in LONG),
+        *((ur5e, freed(denser(ellipse, n)), MOST["long"] * n / LONG[0]) for n in LONG),
+    ]
     rows = []
     for robot, path, most in works:
         taken = seconds(robot, path)

@@ -14,6 +14,7 @@ from rvsim import forward_kinematics, load_robot
 from rvsim.experiment import limit_violations, random_pose
 from rvsim.lab import drawings, named_path
 from rvsim.motion import TOOL_DOWN, Tracking, line_path, through_points, track
+from rvsim.motion import tracking as tracking_module
 from rvsim.motion.tracking import find_jumps
 from rvsim.robot import Robot
 
@@ -226,3 +227,41 @@ def test_a_free_pitch_glides_along_a_finely_sampled_path_longer_than_a_block(rv_
     assert not tracking.jumps
     pitch = np.degrees(tracking.q[:, 1:4].sum(axis=1))
     assert np.abs(np.diff(pitch)).max() < 10.0
+
+
+@pytest.mark.parametrize(
+    ("arm", "name"),
+    [("ur5e", "ellipse-moved"), ("ur5e", "letter-board"), ("rv-1a", "star"), ("rv-m1", "star"), ("al5b", "star")],
+)
+def test_a_long_free_path_is_as_good_from_a_few_of_its_points_as_the_long_way(
+    arm: str, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    robot = load_robot(arm)
+    coarse = named_path(name, robot).points
+    known, wanted = np.arange(len(coarse)), np.linspace(0.0, len(coarse) - 1.0, 600)
+    path = through_points(np.stack([np.interp(wanted, known, coarse[:, axis]) for axis in range(3)], axis=1))
+    quick = track(robot, path)
+    monkeypatch.setattr(tracking_module, "_LONG", path.samples)
+    long = track(robot, path)
+    assert quick.complete
+    assert quick.max_deviation is not None
+    assert quick.max_deviation < 1e-12 * robot.size
+    assert not any(limit_violations(robot, q) for q in quick.q)
+    assert quick.jumps == find_jumps(robot, quick.q, with_rotation=False) == ()
+    assert way_from_home(quick) <= 1.001 * way_from_home(long)
+    # Where the long way keeps its orientation, so does the quick one: nothing swings between the few points.
+    bends = [np.abs(np.diff(found.q, 2, axis=0)).max() for found in (quick, long)]
+    assert bends[0] <= 1.5 * bends[1]
+
+
+def way_from_home(tracking: Tracking) -> float:
+    q = np.concatenate([[tracking.robot.home], tracking.q])
+    return float(np.linalg.norm(np.diff(q, axis=0), axis=1).sum())
+
+
+def test_a_long_free_path_that_leaves_the_reach_is_solved_the_long_way(ur5e: Robot) -> None:
+    path = line_path((0.4, 0.1, 0.3), (1.5, 0.1, 0.3), 400, rotation=None)
+    tracking = track(ur5e, path)
+    assert 0 < tracking.reached_count < path.samples
+    assert {missed.kind for missed in tracking.unreached} == {"reach"}
+    assert tracking.reached[: tracking.reached_count].all()
