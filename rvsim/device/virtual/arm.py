@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -12,7 +14,7 @@ from rvsim.device.virtual.channels import Channels
 from rvsim.device.virtual.clock import FRAME, FRAME_NS, NANO, Clock, frame_after
 from rvsim.device.virtual.contract import Board, ChannelState, Language
 from rvsim.device.virtual.faults import DARK_AFTER, DARKNESS, NO_FAULTS, Fault, Faults
-from rvsim.device.virtual.servo import drive_of, places_after, servo_bank
+from rvsim.device.virtual.servo import Drive, drive_of, places_after, servo_bank
 from rvsim.device.virtual.wire import Wire
 from rvsim.errors import ShapeError
 from rvsim.robot import Robot
@@ -22,6 +24,17 @@ from rvsim.robot.servo import CHANNELS
 _AT_REST = 3  # frames without any change: a pulse takes one frame to be seen and another to act
 _NOTHING = np.full(CHANNELS, np.nan)
 _UNKNOWN = Channels().states
+
+
+class Motion(NamedTuple):
+    """Where the servos were at the last frame (m,), what acts on them until the next, and when that was [ns].
+
+    One value, replaced at once: a window may look while another thread lets time pass.
+    """
+
+    places: FloatArray
+    drive: Drive
+    since: int
 
 
 class VirtualArm:
@@ -186,23 +199,26 @@ class VirtualArm:
         return self._places_at(self._board_time)[: self.robot.dof]
 
     def _places_at(self, now: int) -> FloatArray:
-        return places_after(self._bank, self._places, self._drive, (now - self._since) / NANO)
+        places, drive, since = self._motion
+        return places_after(self._bank, places, drive, min(now - since, FRAME_NS) / NANO)
 
     def _pins(self) -> FloatArray:
         return (_NOTHING if self._dark_until is not None else self.board.pulses)[self._channels]
 
     def _place(self, places: FloatArray) -> None:
         """From now on the servos are there, and the present pulses act on them."""
-        self._places = np.clip(places, self._bank.lower, self._bank.upper)
-        self._since = self._clock.now
-        self._drive = drive_of(self._bank, self._places, self._pulses, self._faults)
+        places = np.clip(places, self._bank.lower, self._bank.upper)
+        self._motion = self._motion_from(places, self._clock.now)
         self._quiet = 0
+
+    def _motion_from(self, places: FloatArray, now: int) -> Motion:
+        return Motion(places, drive_of(self._bank, places, self._pulses, self._faults), now)
 
     def _sink(self) -> None:
         """Let go of the arm before anyone looks, until it lies still."""
         for _ in range(round(settling_time(self.robot) / FRAME)):
-            places = places_after(self._bank, self._places, self._drive, FRAME)
-            if np.array_equal(places, self._places):
+            places = self._places_at(FRAME_NS)
+            if np.array_equal(places, self._motion.places):
                 return
             self._place(places)
 
@@ -210,10 +226,9 @@ class VirtualArm:
         """What the servos did since the last frame, and what they do until the next: a pulse is seen a frame late."""
         self._run_board(now)
         places, pulses = self._places_at(now), self._pins()
-        stirred = places.tobytes() != self._places.tobytes()
+        stirred = places.tobytes() != self._motion.places.tobytes()
         changed = pulses.tobytes() != self._pulses.tobytes()
-        self._places, self._since = places, now
-        self._drive = drive_of(self._bank, places, self._pulses, self._faults)
+        self._motion = self._motion_from(places, now)
         self._pulses = pulses
         self._quiet = 0 if stirred or changed else self._quiet + 1
         self._minds_supply(now, changed)

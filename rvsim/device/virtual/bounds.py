@@ -55,14 +55,18 @@ def settling_bound(robot: Robot, faults: Faults = NO_FAULTS) -> FloatArray:
     return np.asarray(bound)
 
 
-def settling_time(robot: Robot) -> float:
+def settling_time(robot: Robot, *, limp: bool = True) -> float:
     """After its last pulse changed, an arm lies still in this time [s]: driven joints soon, limp ones sink slowly.
 
     One joint after the other crosses its whole range at its slowest pace, and one second for what is left.
+
+    Args:
+        robot: an arm with servos.
+        limp: False where all its joints are driven.
     """
     ranges = np.array([servo.limits[1] - servo.limits[0] for servo in robot.servos])
     speed = np.array([joint.max_speed.value if joint.max_speed else USUAL_SPEED for joint in robot.joints])
-    slowest = np.minimum(speed, FALL_RATE * (STATIC - SLIDING))
+    slowest = np.minimum(speed, FALL_RATE * (STATIC - SLIDING)) if limp else speed
     return float(np.sum(ranges / slowest)) + 25.0 * LOOP_TIME
 
 

@@ -25,7 +25,6 @@ class Wire:
 
     def __init__(self) -> None:
         self._under_way: deque[tuple[int, bytes]] = deque()
-        self._last = 0
         self._filled, self._filled_at = 0.0, 0
         self.use(NO_FAULTS)
 
@@ -54,9 +53,7 @@ class Wire:
             return
         at = now + ANSWER_DELAY + (int(LATENESS * NANO) if Fault.LATE_REPLY in self._faults else 0)
         for piece in self._pieces(self._spoilt(data)):
-            at = max(at, self._last)
             self._under_way.append((at, piece))
-            self._last = at
             at += int(SPLIT_PAUSE * NANO)
 
     def read(self, now: int) -> bytes:

@@ -106,6 +106,31 @@ def test_the_true_pose_follows_late_differs_and_comes_within_the_bound() -> None
     assert np.degrees(error).max() > 1.0  # it sags
 
 
+def test_a_pulse_is_out_at_the_next_frame_and_acts_a_frame_later() -> None:
+    arm = VirtualArm(ROBOT)
+    before = arm.true_q[0]
+    arm.write(b"#0P2000\r")
+    arm.process(0.019)
+    assert np.isnan(arm.commanded_pulses[0])
+    arm.process(0.021)
+    assert (arm.commanded_pulses[0], arm.true_q[0]) == (2000, before)
+    arm.process(0.001)
+    assert arm.true_q[0] > before
+
+
+def test_between_frames_joints_run_on_smoothly() -> None:
+    arm = VirtualArm(ROBOT)
+    arm.write(HOME)
+    places = []
+    for _ in range(2000):
+        arm.process(0.001)
+        places.append(arm.true_q)
+    speeds = np.abs(np.diff(places, axis=0)) / 0.001
+    top = [joint.max_speed.value for joint in ROBOT.joints if joint.max_speed]
+    assert np.all(speeds <= np.add(top, 1e-9))
+    assert np.count_nonzero(speeds[:, 2]) > 100
+
+
 def test_t700_takes_700_ms_on_the_wire() -> None:
     arm = VirtualArm(ROBOT)
     arm.write(HOME)

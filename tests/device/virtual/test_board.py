@@ -101,6 +101,16 @@ def test_a_disabled_startup_does_nothing() -> None:
     assert not one.powered.any()
 
 
+def test_a_startup_text_cannot_write_what_is_kept() -> None:
+    one = board()
+    for line in (b"R0=1", b"SSCAT R4=11520;SSDEL 99;#0P1500;"):
+        said(one, line)
+    one.power_cycle()
+    assert said(one, b"R4") == b"960\r"
+    assert said(one, b"SS") == b'"R4=11520;SSDEL 99;#0P1500;"\r'
+    assert one.moving
+
+
 def test_a_startup_text_holds_100_characters() -> None:
     one = board()
     for _ in range(3):

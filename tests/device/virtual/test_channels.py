@@ -111,6 +111,13 @@ def test_stop_stops_one_servo_where_it_is_and_the_time_of_the_move_goes_on() -> 
     assert not channels.moving(2000 * MILLI)
 
 
+def test_a_servo_that_goes_limp_is_waited_for_no_longer() -> None:
+    channels = known(1000)
+    channels.start(moved((0, 2000, None), time_ms=1000), 0)
+    channels.start(moved((0, 0, None)), 1)
+    assert not channels.moving(2)
+
+
 def test_stop_before_a_first_move_has_begun_leaves_the_channel_without_a_pulse() -> None:
     channels = Channels()
     channels.start(moved((3, 1500, None)), 5)

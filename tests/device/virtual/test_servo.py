@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rvsim import load_robot
-from rvsim.device.virtual.bounds import largest_loads, settling_bound
+from rvsim.device.virtual.bounds import largest_loads, settling_bound, settling_time
 from rvsim.device.virtual.calibration import hidden_servos
 from rvsim.device.virtual.clock import FRAME
 from rvsim.device.virtual.faults import NO_FAULTS, Fault
@@ -29,7 +29,8 @@ def pulses_for(places: FloatArray) -> FloatArray:
 
 
 def settled(places: FloatArray, pulses: FloatArray, bank: ServoBank = BANK) -> FloatArray:
-    for _ in range(3000):
+    limp = bool(np.isnan(pulses).any())
+    for _ in range(round(settling_time(ROBOT, limp=limp) / FRAME)):
         after = places_after(bank, places, drive_of(bank, places, pulses, NO_FAULTS), FRAME)
         if np.array_equal(after, places):
             return after
