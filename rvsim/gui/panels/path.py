@@ -64,7 +64,8 @@ class PathPanel(QWidget):
         column_of(self, self._scroll)
         session.changed.connect(self._on_changed)
         session.tracking_changed.connect(self._on_tracking)
-        tracker.search.changed.connect(self._on_repairs)
+        self._search = tracker.search
+        self._scroll.verticalScrollBar().rangeChanged.connect(self._on_longer)
         self._show(session.experiment)
 
     def set_seen(self, seen: bool) -> None:
@@ -93,9 +94,9 @@ class PathPanel(QWidget):
             # When the layout has made room for the sentence and the buttons, on a low screen too.
             QTimer.singleShot(0, self, self._show_result)
 
-    def _on_repairs(self) -> None:
-        """What is offered later comes into sight too, unless somebody has scrolled meanwhile."""
-        if self._scroll.verticalScrollBar().value() == self._scrolled_to:
+    def _on_longer(self) -> None:
+        """Repairs that are offered later come into sight too, unless somebody has scrolled meanwhile."""
+        if self._search.needed and self._scroll.verticalScrollBar().value() == self._scrolled_to:
             QTimer.singleShot(0, self, self._show_result)
 
     def _show_result(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QSizePolicy, QVBoxLayout, QWidget
 
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.tracker import PathTracker
@@ -48,6 +48,7 @@ class RepairList(QWidget):
         waiting = QHBoxLayout()
         waiting.addWidget(self.searching, 1)
         waiting.addWidget(self.cancel_button)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addLayout(self._offered)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QGroupBox, QHBoxLayout, QLabel, QProgressBar
 
 from rvsim.gui.panels.path_points import PathPointsDialog
@@ -62,11 +62,20 @@ class ResultSection(QGroupBox):
         rows.addRow(self.sentence)
         rows.addRow(self.repairs)
         self.setLayout(rows)
+        tracker.search.changed.connect(lambda: QTimer.singleShot(0, self, self._settle))
         self.show_tracking(None)
         self.show_busy(False)
         tracker.busy_changed.connect(self.show_busy)
         self._wear_units("angle_unit")
         preferences.changed.connect(self._wear_units)
+
+    def _settle(self) -> None:
+        """A form keeps the heights that its rows had before buttons were added and dressed, until it is told."""
+        self.repairs.updateGeometry()
+        layout = self.layout()
+        assert layout is not None
+        layout.invalidate()
+        self.updateGeometry()
 
     def _wear_units(self, name: str) -> None:
         """Say the result in the preferred units, now and when the next path is tracked."""
