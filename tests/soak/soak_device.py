@@ -20,8 +20,23 @@ from collections.abc import Callable
 import numpy as np
 
 from rvsim import load_robot
+from rvsim.device.bridge.messages import (
+    Clear,
+    HostMessage,
+    Identify,
+    Limp,
+    Period,
+    Poll,
+    PollAxes,
+    SetPoints,
+    Stop,
+    Wake,
+    encode,
+)
 from rvsim.device.virtual.arm import VirtualArm
 from rvsim.device.virtual.bounds import settling_bound, settling_time
+from rvsim.device.virtual.clock import FRAME
+from rvsim.device.virtual.contract import Language
 from rvsim.device.virtual.faults import Fault, Faults
 from rvsim.robot.servos import joints_of, pulses_of
 
@@ -110,7 +125,11 @@ def _stop(arm: VirtualArm, dice: random.Random) -> None:
     arm.faults = Faults(arm.faults.on.difference(DEAF), arm.faults.seed, arm.faults.stalled, arm.faults.sagging)
     if arm.dark:
         arm.process(0.5)
-    arm.write(b"\x1b" + b"".join(b"STOP%d\r" % channel for channel in range(32)))
+    if arm.language == "bridge":
+        _say(arm, Stop(), Period(0))
+        arm.process(FRAME)
+    else:
+        arm.write(b"\x1b" + b"".join(b"STOP%d\r" % channel for channel in range(32)))
     pulses, stopped = arm.commanded_pulses, arm.time
     while not arm.resting:
         arm.process(0.25)
@@ -130,18 +149,56 @@ def assert_near_command(arm: VirtualArm) -> None:
     assert 0.0 <= arm.true_opening <= 1.0
 
 
-# How often, in a hundred.
-OFTEN: tuple[tuple[int, Event], ...] = (
-    *((40, _group), (12, _oddity), (10, _stop), (6, _stream), (6, _fault), (6, _no_faults), (5, _grip), (5, _noise)),
-    *((4, _limp), (3, _questions), (2, _hand), (1, _power_cycle)),
+def _say(arm: VirtualArm, *messages: HostMessage) -> None:
+    """In frames of the bridge: whatever number was the last one, Identify begins anew."""
+    arm.write(b"".join(encode(message, number) for number, message in enumerate((Identify(), *messages))))
+
+
+def _set_points(arm: VirtualArm, dice: random.Random) -> None:
+    """Woken or not, stopped or not."""
+    if dice.random() < 0.5:
+        _say(arm, Clear(), *(Wake(axis, 0 if axis == ROBOT.dof else None, 0) for axis in range(ROBOT.dof + 1)))
+    places = [dice.choice((None, dice.randint(-18000, 18000))) for _ in range(ROBOT.dof + 1)]
+    _say(arm, SetPoints(tuple(places), dice.randint(0, 6000)))
+
+
+def _frames(arm: VirtualArm, dice: random.Random) -> None:
+    """Single ones, some of which no board of ours obeys."""
+    axis = dice.randrange(16)
+    number = dice.choice((0, 20, 50, 1000))
+    messages = (Poll(), PollAxes(), Stop(), Clear(), Limp(axis), Wake(axis, dice.randint(-9000, 9000), 500))
+    arm.write(encode(dice.choice((*messages, Period(number), SetPoints((0, 0), 0))), dice.randrange(256)))
+
+
+def _polls(arm: VirtualArm, dice: random.Random) -> None:
+    """As fast as a frame goes over the wire, some of them spoilt."""
+    for number in range(dice.randint(1, 100)):
+        data = bytearray(encode(Poll(), number))
+        data[dice.randrange(len(data))] ^= dice.choice((0, 0, 0, 1 << dice.randrange(8)))
+        arm.write(bytes(data))
+        arm.process(0.008)
+        arm.read()
+
+
+# How often, in a hundred, for each language.
+BOTH: tuple[tuple[int, Event], ...] = (
+    *((10, _stop), (6, _fault), (6, _no_faults), (5, _noise), (2, _hand), (1, _power_cycle)),
 )
+OFTEN: dict[Language, tuple[tuple[int, Event], ...]] = {
+    "ssc32": (*BOTH, (40, _group), (12, _oddity), (6, _stream), (5, _grip), (4, _limp), (3, _questions)),
+    "bridge": (*BOTH, (45, _set_points), (20, _frames), (5, _polls)),
+}
 
 
 def session(seed: int, minutes: float = SESSION, pause: float = 15.0) -> Counter[str]:
-    """One arm for so many simulated minutes, something every `pause` seconds or so; what was done to it how often."""
+    """One arm for so many simulated minutes, something every `pause` seconds or so; what was done to it how often.
+
+    Every fourth arm speaks the language of the bridge.
+    """
     dice = random.Random(seed)
-    arm = VirtualArm(ROBOT, seed=seed, potentiometers=bool(seed % 2))
-    weights, events = zip(*OFTEN, strict=True)
+    language: Language = "bridge" if seed % 4 == 3 else "ssc32"
+    arm = VirtualArm(ROBOT, seed=seed, language=language, potentiometers=bool(seed % 2))
+    weights, events = zip(*OFTEN[language], strict=True)
     done: Counter[str] = Counter()
     while arm.time < 60.0 * minutes:
         (event,) = dice.choices(events, weights)

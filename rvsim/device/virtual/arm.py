@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rvsim.device.bridge.board import BridgeBoard
 from rvsim.device.virtual.board import VERSION, Ssc32Board
 from rvsim.device.virtual.bounds import settling_time
 from rvsim.device.virtual.calibration import hidden_servos
@@ -47,7 +48,7 @@ class VirtualArm:
         robot: an arm with servos.
         seed: of its hidden calibration; 0 is mounted as the robot file says, others may turn the other way.
         language: what its board speaks.
-        version: what the board calls itself.
+        version: what an SSC-32 calls itself.
         potentiometers: whether the SSC-32's analog inputs are wired to the servos' potentiometers.
 
     Raises:
@@ -71,8 +72,10 @@ class VirtualArm:
         self._dark_until: int | None = None
         self._board_time = self._quiet = self._moving = 0
         self._next_frame = FRAME_NS
-        self.board: Board = Ssc32Board(
-            self.servos, self._measured, version=version, potentiometers=potentiometers, seed=seed
+        self.board: Board = (
+            BridgeBoard(robot, self.servos, self.gripper_servo, self._measured)
+            if language == "bridge"
+            else Ssc32Board(self.servos, self._measured, version=version, potentiometers=potentiometers, seed=seed)
         )
         self._pulses = self._pins()
         self._place(np.append(robot.home, [0.5] * (len(self._channels) - robot.dof)))
@@ -225,13 +228,18 @@ class VirtualArm:
     def _frame(self, now: int) -> None:
         """What the servos did since the last frame, and what they do until the next: a pulse is seen a frame late."""
         self._run_board(now)
-        places, pulses = self._places_at(now), self._pins()
-        stirred = places.tobytes() != self._motion.places.tobytes()
+        pulses = self._pins()
         changed = pulses.tobytes() != self._pulses.tobytes()
+        if changed or self._quiet < _AT_REST:
+            self._move(now, pulses, changed)
+        self._minds_supply(now, changed)
+
+    def _move(self, now: int, pulses: FloatArray, changed: bool) -> None:
+        places = self._places_at(now)
+        stirred = places.tobytes() != self._motion.places.tobytes()
         self._motion = self._motion_from(places, now)
         self._pulses = pulses
         self._quiet = 0 if stirred or changed else self._quiet + 1
-        self._minds_supply(now, changed)
 
     def _minds_supply(self, now: int, changed: bool) -> None:
         """A weak supply breaks down under a move."""
