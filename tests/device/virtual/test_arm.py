@@ -12,9 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rvsim import load_robot
+from rvsim.device.bridge.messages import Clear, HostMessage, Identify, Period, SetPoints, Stop, Wake, encode
 from rvsim.device.virtual import arm as arm_module
 from rvsim.device.virtual.arm import VirtualArm
 from rvsim.device.virtual.bounds import settling_bound, settling_time
+from rvsim.device.virtual.contract import Language
 from rvsim.device.virtual.faults import NO_FAULTS, Fault
 from rvsim.errors import RobotDefinitionError, SettingError, ShapeError
 from rvsim.robot.servos import joints_of
@@ -22,6 +24,12 @@ from rvsim.robot.servos import joints_of
 SOAK = runpy.run_path(str(Path(__file__).parents[2] / "soak" / "soak_device.py"))
 ROBOT = load_robot("al5b")
 HOME = b"#0P1500#1P1500#2P1500#3P1500#4P1500#5P1500\r"
+SAID: tuple[HostMessage, ...] = (
+    *(Wake(axis, None, 0) for axis in range(5)),
+    SetPoints((500, 9000, -9000, 100, 0, None), 500),
+)
+FRAMES = tuple(encode(Identify(), 0) + encode(message, 1) for message in SAID)
+MORE_FRAMES = (*FRAMES, encode(Stop(), 7), encode(Identify(), 0) + encode(Clear(), 1) + encode(Period(50), 2))
 LINES = (
     HOME,
     b"#0P1800#1P1700T500\r",
@@ -36,19 +44,27 @@ LINES = (
 Script = list[tuple[bytes, frozenset[Fault], list[int]]]
 
 
-@given(
-    st.lists(
-        st.tuples(
-            st.sampled_from(LINES),
-            st.frozensets(st.sampled_from(Fault), max_size=2),
-            st.lists(st.integers(0, 90_000_000), max_size=5),
-        ),
-        max_size=6,
-    )
-)
+def scripts(lines: tuple[bytes, ...]) -> st.SearchStrategy[Script]:
+    """Lines, faults, and the pieces of time until the next line [ns]."""
+    faults = st.frozensets(st.sampled_from(Fault), max_size=2)
+    pieces = st.lists(st.integers(0, 90_000_000), max_size=5)
+    return st.lists(st.tuples(st.sampled_from(lines), faults, pieces), max_size=6)
+
+
+@given(scripts(LINES))
 @settings(max_examples=60)
 def test_however_time_is_cut_the_arm_is_the_same_bit_for_bit(script: Script) -> None:
-    whole, cut = VirtualArm(ROBOT, seed=1), VirtualArm(ROBOT, seed=1)
+    check_cuts("ssc32", script)
+
+
+@given(scripts(MORE_FRAMES))
+@settings(max_examples=40)
+def test_the_same_holds_for_the_bridge_and_what_it_sends_by_itself(script: Script) -> None:
+    check_cuts("bridge", [*((frame, frozenset[Fault](), [0]) for frame in FRAMES), *script])
+
+
+def check_cuts(language: Language, script: Script) -> None:
+    whole, cut = (VirtualArm(ROBOT, seed=1, language=language) for _ in range(2))
     for line, faults, pieces in script:
         for arm in (whole, cut):
             arm.faults = replace(NO_FAULTS, on=faults)
