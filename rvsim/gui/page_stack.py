@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QButtonGroup, QGridLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent
+from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
 
 _MOST_IN_ROW = 4
+_ROOM = 8  # [pixels] of padding in a button
 
 
 class Page(NamedTuple):
@@ -32,20 +33,32 @@ class PageStack(QWidget):
         self.stack = QStackedWidget()
         self._buttons = QButtonGroup(self)
         self._buttons.setExclusive(True)
-        row = QGridLayout()
-        row.setContentsMargins(8, 6, 8, 2)
-        row.setSpacing(2)
-        for number, page in enumerate(self._pages):
-            row.addWidget(self._button(number, page), number // _MOST_IN_ROW, number % _MOST_IN_ROW)
+        for page in self._pages:
             self.stack.addWidget(page.widget)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
-        column.addLayout(row)
+        column.addLayout(self._button_rows())
         column.addWidget(self.stack, 1)
         self._buttons.idClicked.connect(self._go)
         self._buttons.button(0).setChecked(True)
         self._tell()
+
+    def _button_rows(self) -> QVBoxLayout:
+        """Rows of buttons alike in width where there is room; where there is not, each as wide as its own word."""
+        rows = QVBoxLayout()
+        rows.setContentsMargins(6, 6, 6, 2)
+        rows.setSpacing(2)
+        for first in range(0, len(self._pages), _MOST_IN_ROW):
+            row = QHBoxLayout()
+            row.setSpacing(2)
+            numbers = range(first, min(first + _MOST_IN_ROW, len(self._pages)))
+            for number in numbers:
+                row.addWidget(self._button(number, self._pages[number]), 1)
+            if first > 0:
+                row.addStretch(_MOST_IN_ROW - len(numbers))
+            rows.addLayout(row)
+        return rows
 
     def _button(self, number: int, page: Page) -> QToolButton:
         made = _PageButton(self)
@@ -102,6 +115,12 @@ class _PageButton(QToolButton):
     def __init__(self, stack: PageStack) -> None:
         super().__init__()
         self._stack = stack
+
+    def minimumSizeHint(self) -> QSize:
+        """As wide as the word when it is bold, with a little room."""
+        font = QFont(self.font())
+        font.setBold(True)
+        return QSize(QFontMetrics(font).horizontalAdvance(self.text()) + _ROOM, super().minimumSizeHint().height())
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Step with the arrows; anything else is the button's own."""

@@ -12,7 +12,7 @@ from rvsim.gui.quantities import format_number
 from rvsim.gui.theme import set_role
 
 _TICKS = 10_000
-_NARROWEST = 320  # [pixels]
+_NARROWEST, _SHORTEST = 320, 40  # [pixels] of the bar and of its slider
 _WORDS = {True: ("❚❚ Pause", "▶ Play", "■ Stop"), False: ("❚❚", "▶", "■")}  # with words, and as signs alone
 
 
@@ -22,13 +22,14 @@ class PlayerBar(QWidget):
     def __init__(self, motion: MotionControl, preferences: Preferences, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._motion, self._preferences = motion, preferences
+        self._least = 0  # [pixels] that signs, slider, speed and loop need
         self.play = self._button("play_button", "▶ Play", "Play or pause (F5)", motion.toggle)
         self.stop = self._button("stop_button", "■ Stop", "Stop and go back to the beginning", motion.stop)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setObjectName("time_slider")
         self.slider.setAccessibleName("Time")
         self.slider.setRange(0, _TICKS)
-        self.slider.setMinimumWidth(60)
+        self.slider.setMinimumWidth(_SHORTEST)
         self.slider.setPageStep(_TICKS // 20)
         self.slider.setSingleStep(_TICKS // 200)
         self.slider.valueChanged.connect(self._on_slider)
@@ -62,7 +63,7 @@ class PlayerBar(QWidget):
 
     def minimumSizeHint(self) -> QSize:
         """As narrow as the buttons and the slider: the scene must not be held wide by what can be left out."""
-        return QSize(_NARROWEST, super().minimumSizeHint().height())
+        return QSize(max(_NARROWEST, self._least), super().minimumSizeHint().height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Leave out what does not fit."""
@@ -78,6 +79,11 @@ class PlayerBar(QWidget):
     def _fit(self) -> None:
         """Leave out what does not fit: first the words and the whole time, then the time."""
         self.time.show()
+        self._show_words(words=False)
+        least = self._needed() - self._row.spacing() - self.time.minimumSizeHint().width()
+        if least != self._least:
+            self._least = least
+            self.updateGeometry()
         self._show_words(words=True)
         if self._needed() > self.width():
             self._show_words(words=False)

@@ -32,6 +32,13 @@ def combo(object_name: str, title: str, choices: Mapping[str, str] | None = None
     return box
 
 
+def show_whole(*boxes: QComboBox) -> None:
+    """Let boxes be no narrower than their longest choices."""
+    for box in boxes:
+        box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        box.setMinimumContentsLength(0)
+
+
 def select(box: QComboBox, data: object) -> None:
     """Show the entry with that data, silently."""
     with QSignalBlocker(box):

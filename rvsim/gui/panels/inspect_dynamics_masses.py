@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QHeaderView, QTableView
 from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate_in
 from rvsim.gui.panels.number_cells import make_editable
-from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot, plain_table
+from rvsim.gui.panels.tables import CELL_MARGIN, LEFT, RIGHT, Index, decimals_that_fit, dot, plain_table, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, Kind, display, format_number, length_kind, without_unit
 from rvsim.robot import Robot
@@ -63,6 +63,12 @@ class MassModel(QAbstractTableModel):
     def __init__(self, robot: Robot, preferences: Preferences) -> None:
         super().__init__()
         self._robot, self._preferences = robot, preferences
+        self._rooms: dict[int, int] = {}  # column → pixels for its numbers
+
+    def give_room(self, column: int, width: int) -> None:
+        """A column is so wide [pixels]: decimals that would be cut are left out; tooltips and editors have them."""
+        if width > 0:  # it is not one that is hidden
+            self._rooms[column] = width - CELL_MARGIN
 
     def show_robot(self, robot: Robot) -> None:
         """Show the masses of an arm; open editors survive if the links are as many."""
@@ -108,14 +114,29 @@ class MassModel(QAbstractTableModel):
     def _text(self, index: Index, whole: bool) -> str:
         if not self._robot.masses:
             return "0" if whole else "\u2013"
-        key, shown = COLUMNS[index.column() - 1].key, self._shown(index)
-        if not whole and is_unsaid(self._robot.masses[index.row()], key):
-            return "\u2013"
-        value = mass_value(self._robot.masses[index.row()], key) * shown.factor
-        return f"{value:.12g}" if whole else format_number(value, shown.decimals)
+        link, column = index.row(), index.column()
+        if whole:
+            return f"{mass_value(self._robot.masses[link], COLUMNS[column - 1].key) * self._shown(column).factor:.12g}"
+        return self._number(link, column, self._decimals(column))
 
-    def _shown(self, index: Index) -> Display:
-        return display(mass_kind(self._robot, COLUMNS[index.column() - 1].key), self._preferences)
+    def _decimals(self, column: int) -> int:
+        """With how many the numbers of a column fit."""
+        decimals, links = self._shown(column).decimals, range(self._robot.dof)
+        if column not in self._rooms:
+            return decimals
+        return decimals_that_fit(
+            lambda fewer: (self._number(link, column, fewer) for link in links), decimals, self._rooms[column]
+        )
+
+    def _number(self, link: int, column: int, decimals: int) -> str:
+        """As it is shown with so many decimals."""
+        mass, key = self._robot.masses[link] if self._robot.masses else None, COLUMNS[column - 1].key
+        if mass is None or is_unsaid(mass, key):
+            return "\u2013"
+        return format_number(mass_value(mass, key) * self._shown(column).factor, decimals)
+
+    def _shown(self, column: int) -> Display:
+        return display(mass_kind(self._robot, COLUMNS[column - 1].key), self._preferences)
 
     def _font(self, index: Index) -> QFont | None:
         masses = self._robot.masses
@@ -132,13 +153,16 @@ class MassModel(QAbstractTableModel):
         link = self._robot.masses[index.row()]
         if is_unsaid(link, COLUMNS[index.column() - 1].key):
             return f"{name}: not in the source ({link.source}), taken as 0."
+        if index.column() > 0:
+            number = self._text(index, whole=True).replace("-", "\u2212")
+            name = f"{name}: {number}{self._shown(index.column()).suffix}"
         return f"{name}. {'Assumed: ' if link.assumed else 'From: '}{link.source or 'its robot file'}."
 
     def setData(self, index: Index, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:
         """Take a typed text: a number or an expression in the shown unit."""
         if role != Qt.ItemDataRole.EditRole or index.column() == 0:
             return False
-        text, shown = str(value), self._shown(index)
+        text, shown = str(value), self._shown(index.column())
         if text == self._text(index, whole=True):
             return True
         try:
@@ -163,7 +187,10 @@ class MassModel(QAbstractTableModel):
         if section == 0:
             return "link"
         column = COLUMNS[section - 1]
-        return f"{column.head} {display(mass_kind(self._robot, column.key), self._preferences).suffix.strip()}"
+        unit = self._shown(section).suffix.strip()
+        one_line = f"{column.head} {unit}"
+        fits = text_metrics().horizontalAdvance(one_line) <= self._rooms.get(section, 10_000)
+        return one_line if fits else f"{column.head}\n{unit}"
 
 
 def mass_table(name: str, title: str, model: MassModel, columns: Iterable[int]) -> QTableView:
@@ -174,4 +201,5 @@ def mass_table(name: str, title: str, model: MassModel, columns: Iterable[int]) 
         table.setColumnHidden(column, column not in shown)
     table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
     make_editable(table, "mass_cell_editor")
+    table.horizontalHeader().sectionResized.connect(lambda column, _, width: model.give_room(column, width))
     return table

@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt
 from PySide6.QtWidgets import QHeaderView, QTableView
 
-from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot, plain_table
+from rvsim.gui.panels.tables import CELL_MARGIN, LEFT, RIGHT, Index, decimals_that_fit, dot, plain_table, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, torque_kind
 from rvsim.robot import Robot
@@ -16,6 +16,7 @@ from rvsim.robot.arrays import FloatArray
 
 _TOP = QModelIndex()
 PARTS = ("gravity", "Coriolis", "inertia", "sum τ")
+_SHORT = ("grav.", "Cor.", "inert.", "sum τ")
 _MORE = 1  # decimals: a small arm's parts are small
 _TIPS = (
     "The joint",
@@ -33,6 +34,34 @@ class PartsModel(QAbstractTableModel):
         super().__init__()
         self._robot, self._preferences = robot, preferences
         self.values: FloatArray = np.zeros((robot.dof, len(PARTS)))
+        self._rooms: dict[int, int] = {}  # column → pixels for its numbers
+        self._decimals: tuple[int, ...] = ()
+
+    def give_room(self, column: int, width: int) -> None:
+        """A column is so wide [pixels]: decimals that would be cut are left out; the tooltips have them."""
+        self._rooms[column] = width - CELL_MARGIN
+        self._choose_decimals()
+
+    def _room(self) -> int:
+        """For the numbers of each part [pixels]."""
+        return min((room for column, room in self._rooms.items() if column > 0), default=10_000)
+
+    def _heads(self) -> tuple[str, ...]:
+        """In words where there is room."""
+        widest = max(text_metrics().horizontalAdvance(part) for part in PARTS)
+        return ("joint", *(PARTS if widest <= self._room() else _SHORT))
+
+    def _choose_decimals(self) -> None:
+        wanted = [
+            display(torque_kind(self._robot, i), self._preferences).decimals + _MORE for i in range(len(self.values))
+        ]
+        most = decimals_that_fit(self._texts, max(wanted, default=0), self._room())
+        self._decimals = tuple(min(decimals, most) for decimals in wanted)
+
+    def _texts(self, decimals: int) -> list[str]:
+        """All cells with so many decimals."""
+        joints, parts = range(len(self.values)), range(len(PARTS))
+        return [self._text(joint, part, decimals) for joint in joints for part in parts]
 
     def show_values(self, robot: Robot, values: FloatArray) -> None:
         """Show these (n, 4) of an arm."""
@@ -40,6 +69,7 @@ class PartsModel(QAbstractTableModel):
         if resets:
             self.beginResetModel()
         self._robot, self.values = robot, values
+        self._choose_decimals()
         if resets:
             self.endResetModel()
         else:
@@ -58,7 +88,7 @@ class PartsModel(QAbstractTableModel):
         joint, column = index.row(), index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:
-                return f"J{joint + 1}" if column == 0 else self._text(joint, column - 1)
+                return f"J{joint + 1}" if column == 0 else self._text(joint, column - 1, self._decimals[joint])
             case Qt.ItemDataRole.TextAlignmentRole:
                 return LEFT if column == 0 else RIGHT
             case Qt.ItemDataRole.DecorationRole:
@@ -67,9 +97,9 @@ class PartsModel(QAbstractTableModel):
                 return self._tip(joint)
         return None
 
-    def _text(self, joint: int, part: int) -> str:
+    def _text(self, joint: int, part: int, decimals: int) -> str:
         shown = display(torque_kind(self._robot, joint), self._preferences)
-        text = format_number(float(self.values[joint, part]) * shown.factor, shown.decimals + _MORE)
+        text = format_number(float(self.values[joint, part]) * shown.factor, decimals)
         return text if len(set(self.units())) == 1 or part < len(PARTS) - 1 else text + shown.suffix
 
     def _tip(self, joint: int) -> str:
@@ -87,7 +117,7 @@ class PartsModel(QAbstractTableModel):
         if orientation == Qt.Orientation.Vertical:
             return None
         if role == Qt.ItemDataRole.DisplayRole:
-            return ("joint", *PARTS)[section]
+            return self._heads()[section]
         if role == Qt.ItemDataRole.ToolTipRole:
             return _TIPS[section]
         return {Qt.ItemDataRole.TextAlignmentRole: LEFT if section == 0 else RIGHT}.get(Qt.ItemDataRole(role))
@@ -99,4 +129,5 @@ def parts_table(model: PartsModel) -> QTableView:
     table.setSelectionMode(QTableView.SelectionMode.NoSelection)
     table.setFocusPolicy(Qt.FocusPolicy.NoFocus)
     table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+    table.horizontalHeader().sectionResized.connect(lambda column, _, width: model.give_room(column, width))
     return table

@@ -13,6 +13,7 @@ from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, largest_force, pay
 from rvsim.experiment import Experiment, Load, WrenchAxes
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.panels.copying import CopyButton
+from rvsim.gui.panels.folding_row import FoldingRow, group_of
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_forces_ratings import Ratings
 from rvsim.gui.panels.inspect_forces_table import TorqueModel, fit_table, show_weight, torque_table
@@ -37,7 +38,7 @@ from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import button, column_of, combo, scrolled, select
+from rvsim.gui.widgets import button, column_of, combo, scrolled, select, show_whole
 from rvsim.gui.wrench_drag import WrenchDrag
 from rvsim.kinematics import pose_and_jacobian
 from rvsim.lab.texts import NamedValue, values_latex, values_numpy, values_text
@@ -81,7 +82,7 @@ class ForcesPage(InspectPage):
         self.weight.toggled.connect(self._take_weight)
         self.clear = button("wrench_clear", "No force", "Take the wrench and the payload away", self._clear)
         self.model = TorqueModel(session.robot, preferences, self.catch_up)
-        self.table = torque_table(self.model)
+        self.table, self.torques_title = torque_table(self.model), _titled("")
         self.directions = combo("force_direction", "Direction of the largest force", DIRECTIONS)
         self.directions.setCurrentIndex(self.directions.findData("+z"))
         self.directions.activated.connect(lambda _: self.refresh())
@@ -121,9 +122,10 @@ class ForcesPage(InspectPage):
         carried.addWidget(QLabel("Payload"))
         carried.addWidget(self.payload, 1)
         carried.addWidget(self.clear)
-        asked = QHBoxLayout()
-        asked.addWidget(_titled("Largest force along"))
-        asked.addWidget(self.directions, 1)
+        show_whole(self.directions)
+        asked = FoldingRow(
+            group_of(_titled("Largest force along"), stretched=True), group_of(self.directions, stretched=True), 8
+        )
         note = wrapped_label("muted")
         note.setText(_FORMULA_NOTE)
         inside = QWidget()
@@ -138,11 +140,11 @@ class ForcesPage(InspectPage):
         column.addWidget(self.weight)
         column.addWidget(meaning)
         column.addSpacing(6)
-        column.addLayout(_line(_titled("Joint torques"), self.copy))
+        column.addLayout(_line(self.torques_title, self.copy))
         for shown in (self.table, self.legend, self.message):
             column.addWidget(shown)
         column.addSpacing(6)
-        column.addLayout(asked)
+        column.addWidget(asked)
         column.addWidget(self.largest)
         column.addSpacing(6)
         column.addWidget(self.ratings)
@@ -237,6 +239,7 @@ class ForcesPage(InspectPage):
             box.set_kind(moment_kind(robot))
         self.weight.setVisible(bool(robot.masses))
         self.model.show_rows(robot, torque_rows(robot, np.zeros(robot.dof), np.zeros(robot.dof)))
+        self.torques_title.setText(self.model.title)
         self.legend.setText(legend(self.model.rows))
         self.ratings.show_robot(robot)
 

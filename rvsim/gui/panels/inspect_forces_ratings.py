@@ -26,7 +26,7 @@ _TOP = QModelIndex()
 _JOINT, _RATING, _ORIGIN = range(3)
 _HEADS = ("joint", "rating", "origin")
 _TIPS = ("The joint", "What its drive can hold", "Who says so: a source, nobody (assumed), or you")
-_GAP = 22  # [pixels]
+_GAP, _DOT_ROOM = 22, 30  # [pixels]
 _NONE = ("", "-", "\u2013", "none")
 _HOW = (
     "Double-click a rating to change it, empty it for none: the arm follows on a copy of your own, which can be saved."
@@ -43,6 +43,17 @@ class RatingModel(QAbstractTableModel):
     def __init__(self, robot: Robot, preferences: Preferences) -> None:
         super().__init__()
         self._robot, self._preferences = robot, preferences
+        self._room = 10_000
+
+    def give_room(self, column: int, width: int) -> None:
+        """A column is so wide [pixels]: joints have their names in theirs where all of them fit."""
+        if column == _JOINT:
+            self._room = width - _DOT_ROOM
+
+    def _names(self) -> list[str]:
+        names = [f"J{number} {joint.name}" for number, joint in enumerate(self._robot.joints, start=1)]
+        fit = max(map(text_metrics().horizontalAdvance, names)) <= self._room
+        return names if fit else [f"J{number}" for number in range(1, self._robot.dof + 1)]
 
     def show_robot(self, robot: Robot) -> None:
         """Show the ratings of an arm; open editors survive if the joints are as many."""
@@ -83,20 +94,37 @@ class RatingModel(QAbstractTableModel):
             case Qt.ItemDataRole.FontRole:
                 return _font(joint.max_torque) if column == _RATING else None
             case Qt.ItemDataRole.ToolTipRole:
-                return _tip(joint.name, joint.max_torque)
+                return self._tip(index.row())
         return None
 
     def _text(self, index: Index, whole: bool) -> str:
         joint = self._robot.joints[index.row()]
         if index.column() == _JOINT:
-            return f"J{index.row() + 1} {joint.name}"
+            return self._names()[index.row()]
         if joint.max_torque is None:
             return "" if whole else "\u2013"
         if index.column() == _ORIGIN:
             return rating_origin(joint.max_torque)
         shown = self._shown(index.row())
         value = joint.max_torque.value * shown.factor
-        return f"{value:.12g}" if whole else format_number(value, shown.decimals) + shown.suffix
+        if whole:
+            return f"{value:.12g}"
+        # Nobody rates a drive to more decimals; the tooltip has them.
+        text = format_number(value, shown.decimals - self._preferences["extra_decimals"])
+        return text if self._common_unit() else text + shown.suffix
+
+    def _common_unit(self) -> str:
+        """The unit that all joints share, or nothing."""
+        units = {self._shown(joint).suffix for joint in range(self._robot.dof)}
+        return units.pop().strip() if len(units) == 1 else ""
+
+    def _tip(self, joint: int) -> str:
+        name, rating, shown = self._robot.joints[joint].name, self._robot.joints[joint].max_torque, self._shown(joint)
+        if rating is None:
+            return f"The drive of “{name}”: no rating is known. Double-click or type to enter one."
+        said = {"source": "From: ", "assumed": "Assumed: ", "yours": "Yours: "}[rating_origin(rating)]
+        number = f"{rating.value * shown.factor:.12g}{shown.suffix}"
+        return f"The drive of “{name}”: {number}. {said}{rating.source or 'its robot file'}."
 
     def _shown(self, joint: int) -> Display:
         return display(torque_kind(self._robot, joint), self._preferences)
@@ -122,7 +150,7 @@ class RatingModel(QAbstractTableModel):
             return None
         match role:
             case Qt.ItemDataRole.DisplayRole:
-                return _HEADS[section]
+                return f"{_HEADS[section]} {self._common_unit()}".strip() if section == _RATING else _HEADS[section]
             case Qt.ItemDataRole.ToolTipRole:
                 return _TIPS[section]
             case Qt.ItemDataRole.TextAlignmentRole:
@@ -143,13 +171,6 @@ def _font(rating: Datum | None) -> QFont | None:
     font = QFont(QGuiApplication.font())
     font.setItalic(True)
     return font
-
-
-def _tip(joint: str, rating: Datum | None) -> str:
-    if rating is None:
-        return f"The drive of “{joint}”: no rating is known. Double-click or type to enter one."
-    said = {"source": "From: ", "assumed": "Assumed: ", "yours": "Yours: "}[rating_origin(rating)]
-    return f"The drive of “{joint}”. {said}{rating.source or 'its robot file'}."
 
 
 class Ratings(QWidget):
@@ -221,4 +242,5 @@ def _rating_table(model: RatingModel) -> QTableView:
     header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
     header.setSectionResizeMode(_JOINT, QHeaderView.ResizeMode.Stretch)
     make_editable(table, "rating_cell_editor")
+    header.sectionResized.connect(lambda column, _, width: model.give_room(column, width))
     return table

@@ -7,11 +7,21 @@ from collections.abc import Callable
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QBrush, QColor, QPainter, QPalette, QPen
+from PySide6.QtGui import QBrush, QColor, QPainter, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QHeaderView, QStyledItemDelegate, QStyleOptionViewItem, QTableView
 
 from rvsim.gui.panels.inspect_forces_words import TorqueRow, rating_text, share_text
-from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot, fit_height, plain_table
+from rvsim.gui.panels.tables import (
+    CELL_MARGIN,
+    LEFT,
+    RIGHT,
+    Index,
+    decimals_that_fit,
+    dot,
+    fit_height,
+    plain_table,
+    text_metrics,
+)
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, torque_kind
 from rvsim.robot import Robot
@@ -19,6 +29,7 @@ from rvsim.robot import Robot
 _TOP = QModelIndex()
 _JOINT, _PUSHED, _HELD, _TOTAL, _BAR = range(5)
 _HEADS = ("joint", "from F", "weight", "τ", "of its rating")
+_SHORT = ("joint", "JᵀF", "g(q)", "τ", "rating")
 _TIPS = (
     "The joint",
     "JᵀF: what the wrench takes",
@@ -27,6 +38,7 @@ _TIPS = (
     "How much of the drive's torque rating that is",
 )
 _BAR_HEIGHT = 11.0
+_WIDEST, _LEAST_BAR, _DOT_ROOM = "≈ 000 %", 24, 30  # [pixels]
 
 
 class TorqueModel(QAbstractTableModel):
@@ -37,6 +49,38 @@ class TorqueModel(QAbstractTableModel):
         self._catch_up = catch_up
         self._robot, self._preferences = robot, preferences
         self._rows: tuple[TorqueRow, ...] = ()
+        self._width, self._parts, self._decimals = 10_000, False, 0
+
+    def give_room(self, width: int, parts: bool) -> None:
+        """The table is so wide [pixels], and shows parts beside their sum: what would be cut is left out or shorter."""
+        if (width, parts) != (self._width, self._parts):
+            self._width, self._parts = width, parts
+            self._choose_decimals()
+            self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, _BAR)
+
+    def _room(self) -> float:
+        """Of a column of numbers [pixels]: the joint and the bar have theirs."""
+        metrics = text_metrics()
+        taken = metrics.horizontalAdvance("J0") + _DOT_ROOM
+        if self._parts:  # what the bar takes is what they leave, but for its number
+            shares = max((share_text(row) for row in self._rows), key=len, default="")
+            return (self._width - taken - metrics.horizontalAdvance(shares) - 12) / 3 - CELL_MARGIN
+        return self._width - taken - metrics.horizontalAdvance(_WIDEST) - 8 - _LEAST_BAR - CELL_MARGIN
+
+    def _heads(self) -> tuple[str, ...]:
+        """In words where there is room."""
+        return _HEADS if text_metrics().horizontalAdvance(_HEADS[_HELD]) <= self._room() else _SHORT
+
+    def _choose_decimals(self) -> None:
+        """As many as fit beside each other."""
+        shown = (display(torque_kind(self._robot, joint), self._preferences) for joint in range(len(self._rows)))
+        wanted = max((each.decimals for each in shown), default=0)
+        self._decimals = decimals_that_fit(self._numbers, wanted, self._room())
+
+    def _numbers(self, decimals: int) -> list[str]:
+        columns = (_PUSHED, _HELD, _TOTAL) if self._parts else (_TOTAL,)
+        rows = enumerate(self._rows)
+        return [self._number(joint, row, column, decimals) for joint, row in rows for column in columns]
 
     @property
     def rows(self) -> tuple[TorqueRow, ...]:
@@ -49,6 +93,7 @@ class TorqueModel(QAbstractTableModel):
         if resets:
             self.beginResetModel()
         self._robot, self._rows = robot, rows
+        self._choose_decimals()
         if resets:
             self.endResetModel()
         else:
@@ -84,10 +129,18 @@ class TorqueModel(QAbstractTableModel):
             return f"J{joint + 1}"
         if column == _BAR:
             return share_text(row)
+        return self._number(joint, row, column, self._decimals)
+
+    def _number(self, joint: int, row: TorqueRow, column: int, decimals: int) -> str:
         value = {_PUSHED: row.from_wrench, _HELD: row.from_weight, _TOTAL: row.total}[column]
         shown = display(torque_kind(self._robot, joint), self._preferences)
-        text = format_number(value * shown.factor, shown.decimals)
+        text = format_number(value * shown.factor, min(decimals, shown.decimals))
         return text if self._common_unit() else text + shown.suffix
+
+    @property
+    def title(self) -> str:
+        """What the table is, with the unit that all joints share; else it stands at the numbers."""
+        return ", ".join(["Joint torques", *([self._common_unit()] if self._common_unit() else [])])
 
     def _common_unit(self) -> str:
         """The unit that all joints share, or nothing."""
@@ -95,11 +148,11 @@ class TorqueModel(QAbstractTableModel):
         return units.pop().strip() if len(units) == 1 else ""
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        """What a column is, with the unit where it is the same for all joints."""
+        """What a column is."""
         if orientation == Qt.Orientation.Vertical:
             return None
         if role == Qt.ItemDataRole.DisplayRole:
-            return f"{_HEADS[section]} {self._common_unit()}".strip() if section == _TOTAL else _HEADS[section]
+            return self._heads()[section]
         if role == Qt.ItemDataRole.ToolTipRole:
             return _TIPS[section]
         if role == Qt.ItemDataRole.TextAlignmentRole:
@@ -109,7 +162,7 @@ class TorqueModel(QAbstractTableModel):
 
 def torque_table(model: TorqueModel) -> QTableView:
     """The view of a model."""
-    table = plain_table("torque_table", "Joint torques", model)
+    table = plain_table("torque_table", "Joint torques", model, TorqueTable())
     table.setItemDelegateForColumn(_BAR, BarDelegate(table))
     table.setSelectionMode(QTableView.SelectionMode.NoSelection)
     table.setFocusPolicy(Qt.FocusPolicy.NoFocus)
@@ -124,6 +177,22 @@ def show_weight(table: QTableView, on: bool) -> None:
     """With the arm's own weight there are two parts and their sum."""
     table.setColumnHidden(_PUSHED, not on)
     table.setColumnHidden(_HELD, not on)
+    _give_room(table)
+
+
+def _give_room(table: QTableView) -> None:
+    model = table.model()
+    if isinstance(model, TorqueModel):
+        model.give_room(table.viewport().width(), not table.isColumnHidden(_HELD))
+
+
+class TorqueTable(QTableView):
+    """Tells its model how much room there is."""
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Another width."""
+        _give_room(self)
+        super().resizeEvent(event)
 
 
 def fit_table(table: QTableView) -> None:
@@ -146,9 +215,9 @@ class BarDelegate(QStyledItemDelegate):
         cell, palette = QRectF(option.rect), option.palette
         if index.row() % 2:
             painter.fillRect(cell, palette.alternateBase())
-        room = option.fontMetrics.horizontalAdvance("≈ 000 %") + 8
+        room = option.fontMetrics.horizontalAdvance(_WIDEST) + 8
         frame = QRectF(cell.left() + 4, cell.center().y() - _BAR_HEIGHT / 2, cell.width() - room - 6, _BAR_HEIGHT)
-        if not math.isnan(row.share):
+        if not math.isnan(row.share) and frame.width() > _LEAST_BAR / 2:
             _paint_bar(painter, frame, row, palette)
         over = not math.isnan(row.share) and abs(row.share) > 1.0
         text = palette.color(QPalette.ColorRole.BrightText if over else QPalette.ColorRole.Text)

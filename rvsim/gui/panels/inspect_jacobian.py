@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.panels.copying import CopyButton
+from rvsim.gui.panels.folding_row import FoldingRow, group_of
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_jacobian_table import JacobianModel, JacobianTable
 from rvsim.gui.panels.inspect_jacobian_words import (
@@ -29,7 +30,7 @@ from rvsim.gui.panels.inspect_sources_button import SourcesButton
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
-from rvsim.gui.widgets import column_of, combo, scrolled
+from rvsim.gui.widgets import column_of, combo, scrolled, show_whole
 from rvsim.kinematics.differences import Rows, jacobian_by_differences
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
 from rvsim.robot.arrays import FloatArray
@@ -39,6 +40,7 @@ _PARTS = {"all": "All of J", "position": "Position, Jv", "turning": "Turning, J�
 _ROWS = {"all": slice(0, 6), "position": slice(0, 3), "turning": slice(3, 6)}
 _SIGNS = {"all": "J", "position": "Jv", "turning": "Jω"}
 _HINT = "Point at a column, or go to it with the arrow keys: the scene shows where it comes from."
+_GAP = 6  # [pixels]
 _RANK_ABOVE = 1e-6  # a singular value, as everywhere in this program
 _MARKS = {"text": "", "NumPy": "# ", "LaTeX": "% "}
 _PLAIN = str.maketrans("ẋẏżωφθψ′", "xyzwpts'")
@@ -74,16 +76,13 @@ class JacobianPage(InspectPage):
         self._lay_out()
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(6)
-        head.addWidget(self.kinds, 5)
-        head.addWidget(self.parts, 4)
-        head.addWidget(self.copy)
+        show_whole(self.kinds, self.parts)
+        head = FoldingRow(group_of(self.kinds, stretched=True), group_of(self.parts, self.copy, stretched=True), _GAP)
         inside = QWidget()
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
         column.setSpacing(6)
-        column.addLayout(head)
+        column.addWidget(head)
         above: tuple[QWidget, ...] = (self.meaning, self.table, self.units, self.rank, self.check)
         for widget in above:
             column.addWidget(widget)

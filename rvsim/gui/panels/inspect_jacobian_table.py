@@ -17,6 +17,7 @@ from rvsim.robot.arrays import FloatArray
 
 _TINTS = ("#d9730d", "#1f6feb")  # of negative and of positive numbers
 _CELL_MARGIN = 10.0
+_SMALLEST, _MOST_LEFT_OUT = 0.6, 2  # letters, of the table's; decimals
 _STRONGEST = 0.34  # a tint, and the text on it still has its contrast
 
 
@@ -49,6 +50,7 @@ class JacobianModel(QAbstractTableModel):
         self.shares: FloatArray = np.empty((0, 0))
         self._units: list[list[str]] = []
         self.lit = -1
+        self.left_out = 0  # decimals, where the columns are narrow
 
     def show_values(
         self, rows: tuple[Row, ...], columns: tuple[Column, ...], values: FloatArray, units: list[list[str]]
@@ -68,7 +70,7 @@ class JacobianModel(QAbstractTableModel):
     def text(self, row: int, column: int) -> str:
         """A number as it is shown; a dash where there is none."""
         value = float(self.values[row, column])
-        return "–" if np.isnan(value) else format_number(value, self._rows[row].decimals)
+        return "–" if np.isnan(value) else format_number(value, max(self._rows[row].decimals - self.left_out, 1))
 
     def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008 - Qt's own default
         """How many rows."""
@@ -201,12 +203,22 @@ class JacobianTable(QTableView):
             self.lit.emit(column)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """All numbers in letters of one size, in which the longest fits its column."""
+        """All numbers in letters of one size, in which the longest fits its column.
+
+        Before they become too small to be read, decimals are left out; the tooltips have them.
+        """
+        room = self.columnWidth(0) - _CELL_MARGIN
+        for self.jacobian.left_out in range(_MOST_LEFT_OUT + 1):
+            self._cells.shrunk = min(1.0, room / max(self._longest(), 1.0))
+            if self._cells.shrunk >= _SMALLEST:
+                break
+        super().paintEvent(event)
+
+    def _longest(self) -> float:
+        """The widest number [pixels] in the letters of the table."""
         model, metrics = self.jacobian, QFontMetricsF(self.font())
         places = [(row, column) for row in range(model.rowCount()) for column in range(model.columnCount())]
-        longest = max((metrics.horizontalAdvance(model.text(*place)) for place in places), default=0.0)
-        self._cells.shrunk = min(1.0, (self.columnWidth(0) - _CELL_MARGIN) / max(longest, 1.0))
-        super().paintEvent(event)
+        return max((metrics.horizontalAdvance(model.text(*place)) for place in places), default=0.0)
 
     def leaveEvent(self, event: QEvent) -> None:
         """What the keyboard chose is lit again."""

@@ -159,9 +159,9 @@ class SingularPage(InspectPage):
         return grid
 
     def _threshold_row(self) -> QHBoxLayout:
-        row, label = QHBoxLayout(), QLabel("Close below σ min / σ max =")
+        row, label = QHBoxLayout(), wrapped_label("muted")
+        label.setText("Close below σ min / σ max =")
         label.setToolTip(_THRESHOLD_TIP)
-        set_role(label, role="muted")
         self.threshold.setMaximumWidth(90)
         row.addWidget(label, 1)
         row.addWidget(self.threshold)

@@ -91,7 +91,9 @@ class ShareBar(QWidget):
             painter.fillRect(ground, QBrush(color, Qt.BrushStyle.BDiagPattern) if over else QBrush(color))
         painter.setPen(self.palette().color(QPalette.ColorRole.Text))
         room = self.rect().adjusted(4, 0, -2, 0)
-        text = self.fontMetrics().elidedText(self._text, Qt.TextElideMode.ElideRight, room.width())
+        metrics, text = self.fontMetrics(), self._text
+        if metrics.horizontalAdvance(text) > room.width():  # the tooltip says of what
+            text = metrics.elidedText(text.partition(" of ")[0], Qt.TextElideMode.ElideRight, room.width())
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
 

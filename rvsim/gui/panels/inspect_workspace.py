@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QFileDialog,
-    QGridLayout,
     QHBoxLayout,
     QProgressBar,
     QVBoxLayout,
@@ -26,6 +25,7 @@ from rvsim.errors import RvsimError
 from rvsim.experiment import Experiment
 from rvsim.files.atomic import write_atomically
 from rvsim.gui.panels.copying import CopyButton
+from rvsim.gui.panels.folding_row import FoldingGrid, FoldingRow, group_of
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_page import InspectPage
 from rvsim.gui.panels.inspect_workspace_query import PointQuery
@@ -53,7 +53,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, display, format_number, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
-from rvsim.gui.widgets import button, column_of, combo, scrolled, select
+from rvsim.gui.widgets import button, column_of, combo, scrolled, select, show_whole
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.workspace import SectionMap
 from rvsim.robot.arrays import FloatArray
@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from rvsim.gui.panels.inspect_workspace_map import ScaleBar, SectionPlot
 
 _POINT = "Point at the map for the place there; click to ask for it below."
+_GAP = 6  # [pixels]
 _BESIDE = 0.02  # of the map's width: how far the tool may stand beside the plane of a section and still be in it
 
 
@@ -136,26 +137,23 @@ class WorkspacePage(InspectPage):
         )
 
     def _lay_out(self) -> None:
-        grid = QGridLayout()
-        grid.setSpacing(6)
-        for number, box in enumerate((self.orientations, self.colors, self.sections, self.limits, self.poses)):
-            grid.addWidget(box, number // 2, number % 2)
-        grid.addWidget(self.in_scene, 2, 1)
-        run, save = QHBoxLayout(), QHBoxLayout()
+        boxes = (self.orientations, self.colors, self.sections, self.limits, self.poses)
+        show_whole(*boxes)
+        run = QHBoxLayout()
         run.addWidget(self.sample, 1)
         run.addWidget(self.cancel)
-        for widget in (self.copy, self.save_csv, self.save_png):
-            save.addWidget(widget)
-        save.addStretch(1)
+        save = FoldingRow(
+            group_of(self.copy, self.save_csv, stretched=False), group_of(self.save_png, stretched=False), _GAP
+        )
         inside = QWidget()
         self._column = QVBoxLayout(inside)
         self._column.setContentsMargins(12, 8, 12, 12)
         self._column.setSpacing(6)
-        self._column.addLayout(grid)
+        self._column.addWidget(FoldingGrid((*boxes, self.in_scene), _GAP))
         self._column.addLayout(run)
         for label in (self.progress, self.state, self.place, self.figure):
             self._column.addWidget(label)
-        self._column.addLayout(save)
+        self._column.addWidget(save)
         self._column.addSpacing(8)
         self._column.addWidget(self.query)
         self._column.addStretch(0)

@@ -167,6 +167,7 @@ class ScaleBar(QWidget):
         self._values = values
         self.setVisible(values is not None and values.values is not None)
         self.setAccessibleName(values.title if values else "")
+        self.setToolTip(values.title if values else "")
         self.updateGeometry()
         self.update()
 
@@ -187,7 +188,8 @@ class ScaleBar(QWidget):
         band = QRectF(0.5, line + 2.5, self.width() - 1.0, 10.0)
         with QPainter(self) as painter:
             painter.setPen(QColor(theme.muted))
-            painter.drawText(QRectF(0, 0, self.width(), line), Qt.AlignmentFlag.AlignLeft, values.title)
+            title = self.fontMetrics().elidedText(values.title, Qt.TextElideMode.ElideRight, self.width())
+            painter.drawText(QRectF(0, 0, self.width(), line), Qt.AlignmentFlag.AlignLeft, title)
             (self._paint_boxes if values.whole else self._paint_band)(painter, band, values, theme.dark)
 
     def _paint_band(self, painter: QPainter, band: QRectF, values: Values, dark: bool) -> None:

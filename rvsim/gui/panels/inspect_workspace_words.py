@@ -51,7 +51,7 @@ def values_of(survey: Survey, section: SectionMap, color: str) -> Values:
     if color == "none":
         return Values(None, 1.0, "")
     shape = "√det(JᵀJ)" if survey.workspace.task.robot.dof < 6 else "√det(JJᵀ)"
-    title = f"largest manipulability {shape}, in SI units"
+    title = f"largest manipulability {shape}, SI"
     return Values(section.manipulability, _largest(survey, "manipulability"), title)
 
 

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QCheckBox, QFrame, QHBoxLayout, QLabel, QSizePolic
 
 from rvsim.gui.branch_words import singular_words
 from rvsim.gui.orientations import MATRIX, NOTATIONS
-from rvsim.gui.panels.inverse_fold import FoldingRow, group_of
+from rvsim.gui.panels.folding_row import FoldingRow, group_of
 from rvsim.gui.panels.inverse_matrix import MatrixDialog
 from rvsim.gui.panels.inverse_order import OrderButton
 from rvsim.gui.panels.inverse_table import BranchModel, BranchTable, Row

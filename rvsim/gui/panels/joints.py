@@ -34,6 +34,7 @@ from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _IGNORE_HINT = "Switch “Ignore limits” on to go there."
+_SHORTEST_NAME = 4  # letters of a pose's name that can be read at least
 _LONGEST = "−1000.0 mm"
 _SLIDER_STEPS = {"angle": math.radians(0.1), "length": 1e-4, "unit_length": 1e-3}
 
@@ -218,6 +219,7 @@ class JointsPanel(QWidget):
         self.ignore.setToolTip("Let joints go beyond their limits; such joints are marked")
         self.ignore.toggled.connect(self._on_ignore)
         self.poses = combo("pose_selector", "Saved poses")
+        self.poses.setMinimumContentsLength(_SHORTEST_NAME)
         self.poses.activated.connect(self._recall)
         tip = "Save this pose under a name (Ctrl+D)"
         self.save_pose = button("save_pose_button", "Save…", tip, self.ask_pose_name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelIndex, Qt
@@ -12,11 +13,12 @@ Index = QModelIndex | QPersistentModelIndex
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _DOT = 10
+CELL_MARGIN = 9  # [pixels] that a cell keeps left and right of its text, together
 
 
-def plain_table(name: str, title: str, model: QAbstractItemModel) -> QTableView:
-    """A calm table of a model; its columns share the width."""
-    table = QTableView()
+def plain_table(name: str, title: str, model: QAbstractItemModel, table: QTableView | None = None) -> QTableView:
+    """A calm table of a model; its columns share the width. `table` is an empty one to be made so."""
+    table = table or QTableView()
     table.setObjectName(name)
     table.setAccessibleName(title)
     table.setModel(model)
@@ -39,6 +41,18 @@ def fit_height(table: QTableView) -> None:
         table.verticalHeader().setDefaultSectionSize(row)
     rows = row * table.model().rowCount()
     table.setMaximumHeight(table.horizontalHeader().sizeHint().height() + rows + 2 * table.frameWidth() + 2)
+
+
+def decimals_that_fit(texts: Callable[[int], Iterable[str]], decimals: int, room: float) -> int:
+    """With how many decimals, `decimals` or fewer, all of `texts(decimals)` are no wider than `room` [pixels].
+
+    Numbers that lost their ends would be other ones: those with fewer decimals are only less exact.
+    """
+    metrics = text_metrics()
+    for fewer in range(decimals, 0, -1):
+        if metrics.horizontalAdvance(max(texts(fewer), key=len, default="")) <= room:
+            return fewer
+    return 0
 
 
 def text_metrics() -> QFontMetrics:

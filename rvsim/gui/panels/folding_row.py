@@ -1,10 +1,12 @@
-"""A row that folds in two where it is too narrow, so that no button of it is cut."""
+"""Rows and grids that fold where they are too narrow, so that nothing in them is cut."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QEvent, QSize
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QGridLayout, QHBoxLayout, QWidget
 
 
 class FoldingRow(QWidget):
@@ -45,6 +47,53 @@ class FoldingRow(QWidget):
         needed = sum(group.minimumSize().width() for group in self._groups) + self._row.spacing()
         ways = QBoxLayout.Direction
         self._row.setDirection(ways.LeftToRight if needed <= self.width() else ways.TopToBottom)
+
+
+class FoldingGrid(QWidget):
+    """Widgets in two columns alike while the widest of them fit there, else below each other."""
+
+    def __init__(self, widgets: Sequence[QWidget], spacing: int) -> None:
+        super().__init__()
+        self._widgets, self._columns = tuple(widgets), 0
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setSpacing(spacing)
+        self._place(2)
+
+    @property
+    def folded(self) -> bool:
+        """Whether there is one column."""
+        return self._columns == 1
+
+    def minimumSizeHint(self) -> QSize:
+        """As narrow as the widest."""
+        return QSize(self._widest(), super().minimumSizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Another width."""
+        super().resizeEvent(event)
+        self._fold()
+
+    def event(self, event: QEvent) -> bool:
+        """Other widths of what is in it."""
+        if event.type() == QEvent.Type.LayoutRequest:
+            self._fold()
+        return super().event(event)
+
+    def _widest(self) -> int:
+        return max(widget.minimumSizeHint().width() for widget in self._widgets)
+
+    def _fold(self) -> None:
+        self._place(2 if 2 * self._widest() + self._grid.spacing() <= self.width() else 1)
+
+    def _place(self, columns: int) -> None:
+        if columns == self._columns:
+            return
+        self._columns = columns
+        for number, widget in enumerate(self._widgets):
+            self._grid.addWidget(widget, number // columns, number % columns)
+        self._grid.setColumnStretch(0, 1)
+        self._grid.setColumnStretch(1, columns - 1)
 
 
 def group_of(*widgets: QWidget, stretched: bool) -> QHBoxLayout:
