@@ -131,7 +131,7 @@ class Commands(QObject):
             "track_trajectory": window.tracker.track_trajectory,
             "clear_path": window.tracker.clear,
             "play": motion.toggle,
-            "stop": motion.pause,
+            "stop": lambda: window.emergency_stop.stop("Esc was pressed."),
             "step_forward": lambda: motion.step(0.05),
             "step_back": lambda: motion.step(-0.05),
             "quick_start": lambda: self._tell("Quick start", _QUICK_START),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QByteArray, QElapsedTimer, QEvent, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent, QStatusTipEvent
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QMenu, QSplitter, QToolBar, QWidget
@@ -10,10 +12,15 @@ from rvsim.experiment import Experiment
 from rvsim.files import find_user_folder
 from rvsim.gui.actions import make_actions
 from rvsim.gui.commands import Commands
+from rvsim.gui.device_control import DeviceControl
+from rvsim.gui.device_scene import DeviceScene
+from rvsim.gui.device_words import phase_level, phase_words
+from rvsim.gui.emergency_stop import EmergencyStop
 from rvsim.gui.gizmo_drag import GizmoDrag
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.page_stack import Page, PageStack
 from rvsim.gui.panel_docks import PanelDocks, lies_behind
+from rvsim.gui.panels.device_pages import device_pages
 from rvsim.gui.panels.dh_table import DHTablePanel
 from rvsim.gui.panels.how import HowPanel
 from rvsim.gui.panels.inspect import inspector
@@ -32,6 +39,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.renderers.choose import Choice, renderer_factory
 from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.scene_view import SceneView
+from rvsim.gui.served_arm import ServedArm
 from rvsim.gui.session import Session
 from rvsim.gui.sources_menu import make_sources_menu
 from rvsim.gui.stage import Stage
@@ -42,6 +50,9 @@ from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import ElidedLabel, column_of
 
+if TYPE_CHECKING:
+    from rvsim.device.driver.state import DriverState
+
 _TOOLBAR = ("home", "zero", "|", "undo", "redo", "|", "view_iso", "view_top", "view_front", "view_side", "fit",
             "|", "look_stick", "look_solid", "look_both", "show_frames", "|",
             "show_plots", "dark")  # fmt: skip
@@ -50,7 +61,7 @@ _TOOLBAR_TEXTS = {
     "look_stick": "Stick", "look_both": "Both", "dark": "◐ Dark",
 }  # fmt: skip
 _TELL_MS = 250
-_STATE_VERSION = 2
+_STATE_VERSION = 3
 _MOST_WIDGETS = 1000  # that Tab may pass over
 _LEFT_WIDTH, _RIGHT_WIDTH = 284, 372
 _NARROWEST_RIGHT = 350  # [pixels] with all tabs readable at the usual size
@@ -67,9 +78,13 @@ class MainWindow(QMainWindow):
         self.session, self.preferences, self.library = session, preferences, library
         self.motion = MotionControl(session, preferences, self)
         self.tracker = PathTracker(session, self.motion, self)
+        self.device = DeviceControl(session, self.motion, preferences, self)
+        self.served = ServedArm(session, self)
+        self.emergency_stop = EmergencyStop(self.device, self.motion, self)
         self.scene_view = SceneView(renderer_factory(choice, session.warn))
         self.target = TargetControl(session, preferences, self)  # before the stage: its ghosts are in the same picture
         self.stage = Stage(session, self.motion, preferences, self.scene_view, self)
+        self.device_scene = DeviceScene(session, self.stage, self.device, self.served, self)
         self.target_scene = TargetScene(self.target, self.stage, preferences)
         self.gizmo = GizmoDrag(self.target, self.scene_view, self.stage, preferences)
         self.tool_card = ToolCard(session, preferences, self.scene_view)
@@ -134,6 +149,11 @@ class MainWindow(QMainWindow):
             ("inverse", "Inverse", PageStack("inverse_pages", inverse)),
             ("inspect", "Inspect", inspector(*arguments, self.stage)),
             ("model", "Model", PageStack("model_pages", model)),
+            (
+                "device",
+                "Device",
+                PageStack("device_pages", device_pages(*arguments, self.stage, self.device, self.served)),
+            ),
         ]
 
     def focusNextPrevChild(self, forward: bool) -> bool:
@@ -171,6 +191,7 @@ class MainWindow(QMainWindow):
             action.setIconText(_TOOLBAR_TEXTS.get(name, action.text()))
             bar.addAction(action)
         self.addToolBar(bar)
+        self.addToolBar(self.emergency_stop.toolbar())
 
     def _add_undo_actions(self) -> None:
         stack = self.session.undo_stack
@@ -199,6 +220,10 @@ class MainWindow(QMainWindow):
         self.renderer_label.setToolTip(choice.reason)
         set_role(self.renderer_label, role="muted")
         self.statusBar().addWidget(self.message, 1)
+        self.device_label = QLabel()
+        self.device_label.setObjectName("device_state_label")
+        self.device_label.hide()
+        self.statusBar().addPermanentWidget(self.device_label)
         self.statusBar().addPermanentWidget(self.renderer_label)
         self.statusBar().setSizeGripEnabled(False)
 
@@ -208,6 +233,7 @@ class MainWindow(QMainWindow):
         self.joints.robot_wanted.connect(lambda name: self.session.use_robot(self.library[name]))
         self.preferences.changed.connect(self._on_preference)
         self.scene_view.painted.connect(self._show_frame_time)
+        self.device.state_changed.connect(self._show_device)
         self.commands.connect_all()
 
     # --- what is shown ---------------------------------------------------------------------------------------------
@@ -236,6 +262,13 @@ class MainWindow(QMainWindow):
         self._told_time.start()
         self.renderer_label.setText(f"{self.scene_view.renderer.description}, {milliseconds:.1f} ms")
 
+    def _show_device(self, state: DriverState | None) -> None:
+        words = f"● {phase_words(state, self.device.title)}"
+        self.device_label.setVisible(state is not None)
+        if words != self.device_label.text():
+            self.device_label.setText(words)
+            set_role(self.device_label, level=phase_level(state.phase if state else ""))
+
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         if after.robot is not before.robot:
             self._show_robot()
@@ -256,6 +289,7 @@ class MainWindow(QMainWindow):
             self.plots.give_room()
         if name == "presentation":
             QTimer.singleShot(0, self, self._size_docks)
+            QTimer.singleShot(0, self, self.emergency_stop.keep_room)
 
     def _size_docks(self) -> None:
         """Room for the panels' texts, as large as they are."""
@@ -300,6 +334,8 @@ class MainWindow(QMainWindow):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember the layout; stop what moves."""
         self.motion.pause()
+        self.device.close()
+        self.served.end()
         self.tracker.close()
         self.target.close()
         self.laboratory.stop()

@@ -1,0 +1,335 @@
+"""The window's arm on the wire: what the panels ask of it, what it says, and the limits that it brings along."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from rvsim.errors import RobotDefinitionError, RvsimError
+from rvsim.experiment import Experiment
+from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.panels.user_robot import own_copy
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.session import Session
+from rvsim.lab.before_running import objections
+from rvsim.lab.sentences import Units
+from rvsim.robot import GripperServo, Robot, Servo
+from rvsim.robot.arrays import FloatArray
+from rvsim.robot.servos import within_servos
+
+if TYPE_CHECKING:
+    from rvsim.device.driver.actions import Refusal
+    from rvsim.device.driver.io_thread import ArmDriver
+    from rvsim.device.driver.languages import LanguageName
+    from rvsim.device.driver.state import DriverState
+    from rvsim.device.virtual.arm import VirtualArm
+
+_POLL_MS = 33
+_AT_START = 2e-3  # [rad]: a motion begins only where the arm is
+_CLOSED = "The window was closed."
+
+
+class DeviceControl(QObject):
+    """At most one arm on a wire. The driver does the work in its own thread; this asks for its state and tells.
+
+    Signals:
+        state_changed(state): a `DriverState`, or None when there is no device any more.
+        polled(): some 30 times a second while there is a device: time to read its log or its recording.
+        live_changed(on): whether the arm follows the window.
+    """
+
+    state_changed = Signal(object)
+    polled = Signal()
+    live_changed = Signal(bool)
+
+    def __init__(
+        self, session: Session, motion: MotionControl, preferences: Preferences, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._motion, self._preferences = session, motion, preferences
+        self._driver: ArmDriver | None = None
+        self._state: DriverState | None = None
+        self._wide: FloatArray | None = None  # the arm's own limits, while those of the servos count too
+        self._live = False
+        self._showing = False
+        self._to_wake: list[int | None] = []  # one after the other: the driver takes a jump at a time
+        self.title = ""  # of the device, for people
+        self.table: float | None = 0.0  # its height [m], None where there is none
+        self._timer = QTimer(self, interval=_POLL_MS)
+        self._timer.timeout.connect(self.poll)
+        session.settled.connect(self._on_settled)
+
+    # --- what there is ---------------------------------------------------------------------------------------------
+
+    @property
+    def driver(self) -> ArmDriver | None:
+        """The one that talks to the arm, None when no device is chosen."""
+        return self._driver
+
+    @property
+    def state(self) -> DriverState | None:
+        """What the driver said last."""
+        return self._state
+
+    @property
+    def virtual(self) -> VirtualArm | None:
+        """The arm behind the wire, where it is one of this process."""
+        return self._driver.virtual if self._driver else None
+
+    @property
+    def live(self) -> bool:
+        """Whether the arm follows the window."""
+        return self._live
+
+    @property
+    def moves(self) -> bool:
+        """Whether the arm may be moving."""
+        return self._state is not None and self._state.busy
+
+    # --- the port --------------------------------------------------------------------------------------------------
+
+    def connect_to(self, url: str, *, baud: int = 9600, language: LanguageName = "ssc32") -> None:
+        """Open a port. Nothing moves; the limits of the servos count from now on."""
+        from rvsim.device.driver.io_thread import ArmDriver  # nobody who has no arm waits for it at the start
+
+        self.disconnect_device()
+        robot = self._session.robot
+        if not robot.servos:
+            self._session.say(
+                f"The {robot.title} has no servos in its robot file. Take the Lynxmotion AL5B, or an arm of yours "
+                "with [[servo]] tables.",
+                "error",
+            )
+            return
+        try:
+            narrowed = within_servos(robot)
+            driver = ArmDriver(robot, url, baud=baud, language=language)
+        except RvsimError as problem:
+            self._session.say(str(problem), "error")
+            return
+        self._driver = driver
+        self.title = "Virtual arm" if driver.virtual is not None or url.startswith("al5b:") else url
+        self._narrow(narrowed)
+        self._tell(driver.connect())
+        self._timer.start()
+        self.poll()
+
+    def reconnect(self) -> None:
+        """Open the same port again, after it was lost."""
+        if self._driver is not None:
+            self._tell(self._driver.connect())
+            self.poll()
+
+    def disconnect_device(self) -> None:
+        """Let the arm hold where it is and close the port."""
+        driver, self._driver = self._driver, None
+        if driver is None:
+            return
+        self._timer.stop()
+        self.set_live(False)
+        driver.close()
+        self._widen()
+        self._state = None
+        self.state_changed.emit(None)
+
+    def close(self) -> None:
+        """The window closes: stop the arm first."""
+        if self._driver is not None:
+            self._driver.stop(_CLOSED)
+        self.disconnect_device()
+
+    def poll(self) -> None:
+        """Ask the driver how it is; the timer calls this."""
+        if self._driver is None:
+            return
+        state = self._driver.state
+        before, self._state = self._state, state
+        self._go_on(state)
+        if before is None or _tells_more(before, state):
+            self._say_what_happened(state)
+        self.state_changed.emit(state)
+        self.polled.emit()
+
+    # --- moving ----------------------------------------------------------------------------------------------------
+
+    def wake(self, joint: int | None) -> None:
+        """Move one channel for the first time, to what the window shows; None is the gripper. It cannot be slow."""
+        if self._driver is None:
+            return
+        if joint is None:
+            self._tell(self._driver.wake("gripper", 1.0))
+        else:
+            self._tell(self._driver.wake(joint, float(self._session.q[joint])))
+
+    def wake_all(self) -> None:
+        """All channels at once: only for an arm that cannot be hurt."""
+        if self.virtual is None or self._state is None:
+            self._session.say("Only a virtual arm is woken all at once.", "error")
+            return
+        asleep: list[int | None] = [joint for joint, awake in enumerate(self._state.awake) if not awake]
+        if self._session.robot.gripper_servo is not None and not self._state.gripper_awake:
+            asleep.append(None)
+        self._to_wake = asleep
+        self._go_on(self._state)
+
+    def send_pose(self, seconds: float | None = None) -> None:
+        """Go calmly to the pose that is shown."""
+        if self._driver is not None:
+            self._tell(self._driver.move_to(self._session.q, seconds))
+
+    @property
+    def differs(self) -> bool:
+        """Whether the arm has been sent to another pose than the one that is shown, as far as is known."""
+        return self._state is not None and not self._is_at(self._session.q)
+
+    def take_pose(self) -> None:
+        """Show the pose that the arm has been sent to."""
+        if self._state is not None and np.isfinite(self._state.commanded_q).all():
+            self._session.move_to(self._state.commanded_q, "Show where the arm is")
+
+    def set_live(self, on: bool) -> None:
+        """Let the arm follow every pose that is shown; it goes there calmly first."""
+        if on == self._live:
+            return
+        if on and not self._can_follow():
+            self.live_changed.emit(False)
+            return
+        self._live = on
+        self.live_changed.emit(on)
+
+    def run_motion(self) -> None:
+        """Let the arm do the motion that is in the player, after checking it."""
+        motion = self._motion.player.trajectory
+        if self._driver is None or self._state is None:
+            self._session.say("Connect an arm first.", "error")
+            return
+        if motion is None:
+            self._session.say("There is no motion yet: track a line, a trajectory, or run a program.", "error")
+            return
+        against = objections(self._session.robot, motion, self._units, table=self.table)
+        if against:
+            self._session.say("Not run on the arm: " + " ".join(against), "error")
+            return
+        self.set_live(False)
+        self._motion.pause()
+        if self._tell(self._driver.run(motion, approach=True)):
+            self._session.say("The arm goes calmly to where the motion begins, and then runs it. Esc stops.")
+
+    def grip(self, opening: float, seconds: float = 0.5) -> None:
+        """Open or close the gripper: 0 closed … 1 open."""
+        if self._driver is not None:
+            self._tell(self._driver.grip(opening, seconds))
+
+    def stop(self, reason: str) -> None:
+        """Emergency stop: it latches until `reset`. The motion in the window stops too."""
+        if self._driver is not None:
+            self._driver.stop(reason)
+        self._motion.pause()
+        self.set_live(False)
+        self.poll()
+
+    def reset(self) -> None:
+        """Lead out of the latched stop, deliberately."""
+        if self._driver is not None:
+            self._tell(self._driver.reset())
+            self.poll()
+
+    # --- calibration -----------------------------------------------------------------------------------------------
+
+    def use_servos(self, servos: Sequence[Servo], gripper: GripperServo | None, text: str) -> None:
+        """Take another calibration: of a copy of the user's own, in one undo step, and on the wire."""
+        wide = self._with_limits(self._session.robot, self._wide)
+        robot = replace(own_copy(wide), servos=tuple(servos), gripper_servo=gripper)
+        if self._driver is not None:
+            if not self._tell(self._driver.use_servos(robot.servos, gripper)):
+                return
+            try:
+                self._wide, robot = robot.limits, within_servos(robot)
+            except RobotDefinitionError as problem:
+                self._session.say(str(problem), "error")
+                return
+        self._session.edit(text, self._session.experiment.with_robot(robot))
+
+    # --- inside ----------------------------------------------------------------------------------------------------
+
+    @property
+    def _units(self) -> Units:
+        return Units(self._preferences["angle_unit"], self._preferences["length_unit"])
+
+    def _tell(self, refusal: Refusal | None) -> bool:
+        """Say why something was refused; whether it was taken."""
+        if refusal is not None:
+            self._session.say(refusal.sentence, "error")
+        return refusal is None
+
+    def _narrow(self, narrowed: Robot) -> None:
+        self._wide = self._session.robot.limits
+        if not np.array_equal(self._wide, narrowed.limits):
+            experiment = self._session.experiment.with_robot(narrowed)
+            self._session.edit("Limits of arm and servos", experiment)
+
+    def _widen(self) -> None:
+        wide, self._wide = self._wide, None
+        robot = self._session.robot
+        if wide is not None and len(wide) == robot.dof and not np.array_equal(wide, robot.limits):
+            experiment = self._session.experiment.with_robot(self._with_limits(robot, wide))
+            self._session.edit("Limits of the arm alone", experiment)
+
+    @staticmethod
+    def _with_limits(robot: Robot, limits: FloatArray | None) -> Robot:
+        for index, (lower, upper) in enumerate(limits if limits is not None else ()):
+            robot = robot.with_joint(index, lower=float(lower), upper=float(upper))
+        return robot
+
+    def _can_follow(self) -> bool:
+        state = self._state
+        if state is None or not state.connected or state.phase == "stopped" or not all(state.awake):
+            self._session.say("The arm can follow once every joint is awake and no stop is latched.", "error")
+            return False
+        if not self._is_at(self._session.q):
+            self.send_pose()
+        return True
+
+    def _is_at(self, q: FloatArray) -> bool:
+        if self._state is None:
+            return False
+        return bool(np.all(np.abs(self._state.commanded_q - q) < _AT_START))
+
+    def _go_on(self, state: DriverState) -> None:
+        """What follows from the new state: the next joint wakes, the window shows the moment at which the arm is."""
+        if state.phase in ("stopped", "lost"):
+            self._to_wake = []
+            self.set_live(False)
+        if self._to_wake and state.phase in ("asleep", "ready"):
+            self.wake(self._to_wake.pop(0))
+        if state.phase == "running":
+            self._showing = True
+            try:
+                self._motion.seek(state.time)
+            finally:
+                self._showing = False
+
+    def _say_what_happened(self, state: DriverState) -> None:
+        if state.reason:
+            level = "error" if state.phase in ("stopped", "lost") else "info"
+            self._session.say(state.reason, level)
+        elif state.clamped:
+            self._session.warn(f"Held at the limits of {', '.join(state.clamped)}: the arm does not go there.")
+
+    def _on_settled(self, before: Experiment, after: Experiment) -> None:
+        if self._driver is None:
+            return
+        if after.robot.servos != self._driver.robot.servos:
+            self._driver.stop("Another arm was taken.")
+            self._wide = None
+            self.disconnect_device()
+        elif self._live and not self._showing and after.q is not before.q:
+            self._tell(self._driver.stream(after.q))
+
+
+def _tells_more(before: DriverState, after: DriverState) -> bool:
+    return (before.phase, before.reason, before.clamped) != (after.phase, after.reason, after.clamped)

@@ -1,0 +1,36 @@
+"""The state of an arm on a wire in words, and how serious it is."""
+
+from __future__ import annotations
+
+from rvsim.device.driver.state import DriverState, Phase
+
+_WORDS: dict[Phase, str] = {
+    "disconnected": "Not connected",
+    "connecting": "Connecting …",
+    "asleep": "Connected, asleep",
+    "ready": "Ready",
+    "moving": "Moving",
+    "streaming": "Following",
+    "running": "Running",
+    "stopped": "STOPPED",
+    "lost": "Connection lost",
+}
+_LEVELS: dict[Phase, str] = {
+    "asleep": "warning", "ready": "good", "moving": "good", "streaming": "good", "running": "good",
+    "stopped": "error", "lost": "error",
+}  # fmt: skip
+
+
+def phase_words(state: DriverState | None, title: str) -> str:
+    """A line for the panel and the status bar: "Virtual AL5B: ready"."""
+    if state is None:
+        return _WORDS["disconnected"]
+    words = _WORDS[state.phase]
+    if state.phase == "running":
+        words = f"{words}, {state.time:.1f} of {state.duration:.1f} s"
+    return f"{title}: {words}" if title else words
+
+
+def phase_level(phase: str) -> str:
+    """ "good", "warning", "error", or "" for what is neither."""
+    return {str(key): level for key, level in _LEVELS.items()}.get(phase, "")

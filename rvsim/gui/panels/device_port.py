@@ -1,0 +1,116 @@
+"""Which port, how fast, in which language, and the button that connects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QVBoxLayout, QWidget
+
+from rvsim.device.driver.ports import PortChoice, available_ports
+from rvsim.gui.theme import set_role
+from rvsim.gui.widgets import button, combo, form
+
+_TYPED = ""
+_LANGUAGES = {"ssc32": "SSC-32, SSC-32U", "bridge": "Encoder bridge"}
+_BAUDS = {rate: f"{rate} baud" for rate in (9600, 38400, 115200, 2400)}
+
+
+class PortSection(QWidget):
+    """Emits `connect_wanted(url, baud, language)` and `disconnect_wanted()`."""
+
+    connect_wanted = Signal(str, int, str)
+    disconnect_wanted = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.port = combo("device_port", "Port")
+        self.address = QLineEdit()
+        self.address.setObjectName("device_address")
+        self.address.setAccessibleName("Address")
+        self.address.setPlaceholderText("socket://192.168.1.5:4001 or rfc2217://…")
+        self.address.setToolTip("Anything that pySerial can open: socket://, rfc2217://, /dev/…, COM…, al5b://?seed=2")
+        self.detail = QLabel()
+        self.detail.setWordWrap(True)
+        self.detail.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
+        set_role(self.detail, role="muted")
+        self.rescan = button("device_rescan", "↻", "Look for ports again", self.scan)
+        self.rescan.setFixedWidth(34)
+        self.baud = combo("device_baud", "Speed of the wire", {str(rate): text for rate, text in _BAUDS.items()})
+        self.language = combo("device_language", "Language of the controller", _LANGUAGES)
+        self.connect_button = button(
+            "device_connect_button", "Connect", "Open the port. Nothing moves", self._on_button, primary=True
+        )
+        self._choices: Sequence[PortChoice] = ()
+        self._connected = self._lost = False
+        self.port.currentIndexChanged.connect(lambda _: self._show_choice())
+        self._lay_out()
+        self.scan()
+
+    def _lay_out(self) -> None:
+        ports = QHBoxLayout()
+        ports.setSpacing(6)
+        ports.addWidget(self.port, 1)
+        ports.addWidget(self.rescan)
+        rows = form()
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.addRow("Port", ports)
+        rows.addRow("Address", self.address)
+        self._address_label = rows.labelForField(self.address)
+        self._rows = QWidget()
+        self._rows.setLayout(rows)
+        rows.addRow("Speed", self.baud)
+        rows.addRow("Language", self.language)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(6)
+        column.addWidget(self._rows)
+        column.addWidget(self.detail)
+        column.addWidget(self.connect_button)
+
+    @property
+    def url(self) -> str:
+        """What is to be opened."""
+        chosen = str(self.port.currentData() or _TYPED)
+        return chosen if chosen != _TYPED else self.address.text().strip()
+
+    def scan(self) -> None:
+        """List the ports that there are now; the one that was chosen stays if it is still there."""
+        before = self.port.currentData()
+        self._choices = available_ports()
+        self.port.blockSignals(True)
+        self.port.clear()
+        for choice in self._choices:
+            self.port.addItem(choice.title, choice.url)
+        self.port.addItem("Another address …", _TYPED)
+        self.port.setCurrentIndex(max(self.port.findData(before), 0) if before is not None else 0)
+        self.port.blockSignals(False)
+        self._show_choice()
+
+    def show_connected(self, connected: bool, lost: bool) -> None:
+        """What the button does next."""
+        if (connected, lost) == (self._connected, self._lost):
+            return
+        self._lost = lost
+        self._connected = connected
+        text = "Connect again" if lost else "Disconnect" if connected else "Connect"
+        tip = "Close the port; the arm holds where it is" if connected and not lost else "Open the port. Nothing moves"
+        self.connect_button.setText(text)
+        self.connect_button.setToolTip(tip)
+        self._rows.setVisible(not connected)  # an open port cannot be changed, and the room is needed
+        set_role(self.connect_button, primary=not connected or lost)
+        self._show_choice()
+
+    def _show_choice(self) -> None:
+        typed = self.port.currentData() == _TYPED
+        for widget in (self.address, self._address_label):
+            widget.setVisible(typed)
+        detail = next((choice.detail for choice in self._choices if choice.url == self.port.currentData()), "")
+        self.detail.setText(detail)
+        self.detail.setVisible(bool(detail) and not self._connected)
+
+    def _on_button(self) -> None:
+        if self._connected and not self._lost:
+            self.disconnect_wanted.emit()
+        else:
+            self.connect_wanted.emit(self.url, int(self.baud.currentData()), str(self.language.currentData()))

@@ -1,0 +1,95 @@
+"""Waking an arm: one joint after the other, each told where it will jump to before it does."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from rvsim.device.driver.state import DriverState
+from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.quantities import format_quantity, joint_kind
+from rvsim.gui.theme import set_role
+from rvsim.gui.widgets import button
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.robot.servos import clamped_pulses, pulses_of
+
+_WHY = (
+    "The controller does not know yet where its servos are: the first move of each jumps at full speed, whatever is "
+    "asked for. Bring the arm by hand to about the pose that is shown, keep clear, and wake one joint after the other."
+)
+_WHY_VIRTUAL = (
+    "The controller does not know yet where its servos are: the first move of each jumps at full speed. "
+    "With a real arm you would hold it near the pose that is shown."
+)
+
+
+class WakeSection(QWidget):
+    """Emits `wake_wanted(joint)`, where n is the gripper, and `wake_all_wanted()`."""
+
+    wake_wanted = Signal(int)
+    wake_all_wanted = Signal()
+
+    def __init__(self, preferences: Preferences) -> None:
+        super().__init__()
+        self._preferences = preferences
+        self._joint, self._skipped = 0, 0
+        self.title, self.why, self.what = wrapped_label("title"), wrapped_label("muted"), wrapped_label()
+        self.what.setObjectName("device_wake_text")
+        set_role(self.what, level="warning")
+        self.wake = button("device_wake", "Wake", "Let this joint jump to the pose that is shown", self._on_wake)
+        self.skip = button("device_wake_skip", "Skip", "Leave this joint asleep for now", self._on_skip)
+        self.all = button(
+            "device_wake_all", "Wake all", "All joints at once: nothing can be hurt on a virtual arm",
+            self.wake_all_wanted.emit,
+        )  # fmt: skip
+        row = QHBoxLayout()
+        row.setSpacing(6)
+        row.addWidget(self.wake, 2)
+        row.addWidget(self.all, 1)
+        row.addWidget(self.skip, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(6)
+        for widget in (self.title, self.why, self.what):
+            column.addWidget(widget)
+        column.addLayout(row)
+
+    def begin(self) -> None:
+        """From the first joint again: another connection."""
+        self._skipped = 0
+
+    def show_state(self, robot: Robot, q: FloatArray, state: DriverState, virtual: bool) -> None:
+        """Ask for the next joint that sleeps; hidden when none does."""
+        asleep = [number for number, awake in enumerate(_awake(robot, state)) if not awake]
+        self.setVisible(state.connected and state.phase != "stopped" and bool(asleep))
+        if not asleep:
+            return
+        later = [number for number in asleep if number >= self._skipped]
+        self._joint = (later or asleep)[0]
+        count = len(_awake(robot, state))
+        name = robot.joint_names[self._joint] if self._joint < robot.dof else "gripper"
+        self.title.setText(f"Wake the arm: {count - len(asleep)} of {count} awake")
+        self.why.setText(_WHY_VIRTUAL if virtual else _WHY)
+        self.what.setText(self._says(robot, q, name))
+        self.wake.setText(f"Wake {name}")
+        self.all.setVisible(virtual)
+
+    def _says(self, robot: Robot, q: FloatArray, name: str) -> str:
+        if self._joint == robot.dof:
+            assert robot.gripper_servo is not None
+            return f"The gripper will open at once ({robot.gripper_servo.open_us:.0f} µs)."
+        pulse = clamped_pulses(robot.servos, pulses_of(robot.servos, q))[self._joint]
+        angle = format_quantity(float(q[self._joint]), joint_kind(robot, self._joint), self._preferences)
+        return f"The {name} will jump to {angle} ({pulse:.0f} µs)."
+
+    def _on_wake(self) -> None:
+        self.wake_wanted.emit(self._joint)
+
+    def _on_skip(self) -> None:
+        self._skipped = self._joint + 1
+
+
+def _awake(robot: Robot, state: DriverState) -> tuple[bool, ...]:
+    return state.awake if robot.gripper_servo is None else (*state.awake, state.gripper_awake)

@@ -1,0 +1,84 @@
+"""A virtual arm of the window that other programs drive, through a pseudo-terminal or TCP."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from tempfile import gettempdir
+from typing import TYPE_CHECKING, Literal
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from rvsim.errors import RvsimError
+from rvsim.gui.session import Session
+
+if TYPE_CHECKING:
+    from rvsim.device.link.serve import Server
+    from rvsim.device.virtual.arm import VirtualArm
+
+Way = Literal["pty", "tcp"]
+LINK_NAME = "rvsim-al5b"
+_WATCH_MS = 500
+
+
+def ways() -> dict[str, str]:
+    """What this system can: Windows has no pseudo-terminals."""
+    tcp = {"tcp": "TCP on this computer"}
+    return tcp if sys.platform == "win32" else {"pty": "Pseudo-terminal (a serial port)", **tcp}
+
+
+class ServedArm(QObject):
+    """At most one; `changed()` tells that it began or ended."""
+
+    changed = Signal()
+
+    def __init__(self, session: Session, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._server: Server | None = None
+        self._arm: VirtualArm | None = None
+        self._timer = QTimer(self, interval=_WATCH_MS)
+        self._timer.timeout.connect(self._watch)
+
+    @property
+    def arm(self) -> VirtualArm | None:
+        """The arm that is served, None when none is."""
+        return self._arm
+
+    @property
+    def address(self) -> str:
+        """What another program opens, "" when nothing is served."""
+        return self._server.address if self._server else ""
+
+    def begin(self, way: Way, baud: int, seed: int = 0) -> None:
+        """Serve an arm like the one that is shown."""
+        from rvsim.device.link.serve import serve_pty, serve_tcp
+        from rvsim.device.virtual.arm import VirtualArm
+
+        self.end()
+        try:
+            arm = VirtualArm(self._session.robot, seed=seed)
+            link = Path(gettempdir()) / LINK_NAME
+            self._server = serve_pty(arm, link=link, baud=baud) if way == "pty" else serve_tcp(arm, baud=baud)
+        except (RvsimError, OSError) as problem:
+            self._session.say(str(problem), "error")
+            return
+        self._arm = arm
+        self._timer.start()
+        self._session.say(f"A virtual arm is waiting at {self.address}. What moves it is shown as a ghost.")
+        self.changed.emit()
+
+    def end(self) -> None:
+        """Send clients away."""
+        server, self._server, self._arm = self._server, None, None
+        self._timer.stop()
+        if server is not None:
+            server.close()
+            self.changed.emit()
+
+    def _watch(self) -> None:
+        """It may end by itself, for instance when its link is taken away."""
+        if self._server is not None and not self._server.running:
+            problem = self._server.problem
+            self.end()
+            self._session.say(f"The virtual arm is not served any more. {problem}".strip(), "warning")
