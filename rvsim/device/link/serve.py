@@ -130,6 +130,9 @@ class Server:
         """One look at the wire and the arm."""
         self._time.tell(time.monotonic())
         self._mind_the_plug()
+        if self._unplugged:
+            self._paced.discard_input()
+            return
         self._paced.baud = self._wire.client_baud() or self._paced.baud
         data = self._wire.read(self._room) if self._room else b""
         if self._wire.flushed():
