@@ -9,7 +9,6 @@ import time
 from pathlib import Path
 from typing import Protocol
 
-from rvsim.device.link.line import BITS
 from rvsim.device.link.pacing import PacedArm, WiredArm
 from rvsim.device.link.pty_wire import PtyWire
 from rvsim.device.link.real_time import RealTime
@@ -17,7 +16,7 @@ from rvsim.device.link.wires import TcpWire, Wire
 from rvsim.errors import RvsimError
 
 USUAL_BAUD = 9600
-_READ_AHEAD, _LEAST_AHEAD = 0.02, 16  # [s], [bytes]; what else a client sends stays in its buffer, which holds it up
+_OUTPUT_BUFFER = 4096  # bytes, as a serial driver has; what is with us a client can call back, the rest holds it up
 _BUSY, _QUIET = 0.001, 0.01  # [s] between two looks at the arm while bytes are on their way, and otherwise
 
 
@@ -105,6 +104,11 @@ class Server:
         """Whether the two are the same."""
         return self._paced.matches
 
+    @property
+    def out_waiting(self) -> int:
+        """How many of the client's bytes have not arrived at the board."""
+        return self._paced.out_waiting
+
     def wait(self, seconds: float) -> bool:
         """Wait until it has ended, at most so long [s]; whether it has."""
         return self._stopped.wait(seconds)
@@ -153,8 +157,7 @@ class Server:
 
     @property
     def _room(self) -> int:
-        ahead = max(_LEAST_AHEAD, round(_READ_AHEAD * self._paced.baud / BITS))
-        return max(0, ahead - self._paced.out_waiting)
+        return _OUTPUT_BUFFER - self._paced.out_waiting
 
     def _rest(self) -> None:
         seconds = _BUSY if self._paced.busy else _QUIET

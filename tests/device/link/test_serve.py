@@ -134,6 +134,7 @@ def test_output_that_a_client_calls_back_does_not_arrive(pty: Serve, arm: Virtua
     with client(server) as port:
         port.write(b"#1P2000\r" * 400)  # 3.3 s of the wire
         port.write(b"#2P1700\r")
+        until(server, lambda: server.out_waiting > 3000)
         port.reset_output_buffer()
         port.write(b"\r#3P1500\r")
         until(server, lambda: pulse(port, 3) == 1500)
@@ -187,7 +188,7 @@ def test_a_tcp_port_is_named_and_taken_once(tcp: Server, arm: VirtualArm) -> Non
 
 def test_a_client_that_never_reads_holds_nobody_up(tcp: Server, arm: VirtualArm) -> None:
     with client(tcp) as port:
-        for _ in range(50):
+        for _ in range(20):
             port.write(b"Q\r" * 200)
         port.write(b"#5P1500\r")
         until(tcp, lambda: arm.channels[5] != "unknown")
