@@ -174,11 +174,11 @@ class BridgeBoard:
 
     def _encoders(self, now: int) -> BoardMessage:
         timestamp = (now - self._on_since) // _MILLI % 2**32
-        return Encoders(timestamp, self._status(), places_of(self._robot, self._measured()))
+        return Encoders(timestamp, self._status_at(now), places_of(self._robot, self._measured()))
 
     def _axes(self, _: PollAxes) -> BoardMessage:
         places = places_of(self._robot, self._courses.at(self._frame))
-        return Axes(self._status(), places, _flags(self._stalled()), _flags(self._courses.limited))
+        return Axes(self._status(), places, _flags(self._stalled(self._clock.now)), _flags(self._courses.limited))
 
     def _set_points(self, message: SetPoints) -> BoardMessage:
         if len(message.places) != len(self._channels):
@@ -241,18 +241,20 @@ class BridgeBoard:
         return np.append(self._measure(), [np.nan] * (len(self._channels) - self._robot.dof))
 
     def _status(self) -> Status:
+        return self._status_at(self._clock.now)
+
+    def _status_at(self, now: int) -> Status:
         return Status(
-            moving=self.moving or Fault.STUCK_MOVING in self.faults,
-            stalled=bool(self._stalled().any()),
+            moving=bool(self._courses.moving(now).any()) or Fault.STUCK_MOVING in self.faults,
+            stalled=bool(self._stalled(now).any()),
             limit=bool(self._courses.limited.any()),
             stopped=self._stopped,
             asleep=not self._courses.awake.all(),
             restarted=self._restarted,
         )
 
-    def _stalled(self) -> BoolArray:
+    def _stalled(self, now: int) -> BoolArray:
         """(m,) which axes do not follow: far behind on their way, or not there in time."""
-        now = self._clock.now
         behind = np.abs(self._measured() - self._courses.at(now)) * axis_scales(self._robot)
         late = (behind > _BEHIND_RESTING) & (self._courses.resting(now) > _TIME_TO_ARRIVE)
         return np.asarray((behind > _BEHIND_MOVING) | late)

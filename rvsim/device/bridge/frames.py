@@ -132,6 +132,11 @@ class FrameDecoder:
         self._buffer = b""
         self._lost = False
 
+    @property
+    def unfinished(self) -> bool:
+        """Whether a frame has begun and is not whole yet."""
+        return bool(self._buffer)
+
     def feed(self, data: bytes) -> tuple[Found, ...]:
         """What the bytes complete. Noise is told of once, and not at all after a bad frame: it is the rest of it."""
         buffer, position = self._buffer + data, 0
