@@ -17,6 +17,7 @@ from rvsim.device.virtual.faults import (
     Faults,
 )
 
+MOST_PIECES = 4096  # answers that nobody reads are forgotten, the oldest first
 ANSWER_DELAY = 600_000  # [ns] the manual's transmit delay
 
 
@@ -24,7 +25,7 @@ class Wire:
     """Both directions; times are those of the arm [ns]."""
 
     def __init__(self) -> None:
-        self._under_way: deque[tuple[int, bytes]] = deque()
+        self._under_way: deque[tuple[int, bytes]] = deque(maxlen=MOST_PIECES)
         self._filled, self._filled_at = 0.0, 0
         self.use(NO_FAULTS)
 

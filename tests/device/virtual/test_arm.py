@@ -247,3 +247,11 @@ def test_another_size_of_the_arm_needs_only_its_file() -> None:
     assert np.all(np.abs(arm.true_q - wanted) <= settling_bound(longer))
     with pytest.raises(RobotDefinitionError):
         VirtualArm(load_robot("rv-m1"))
+
+
+def test_answers_that_nobody_reads_do_not_pile_up() -> None:
+    arm = VirtualArm(ROBOT)
+    for _ in range(5000):
+        arm.write(b"VER\r")
+    arm.process(1.0)
+    assert arm.read() == b"SSC32-V2.04GP\r" * 4096
