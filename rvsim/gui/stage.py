@@ -10,6 +10,7 @@ from PySide6.QtCore import QEasingCurve, QObject, QTimer, QVariantAnimation
 
 from rvsim.experiment import Experiment
 from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.path_legend import Entry, PathLegend, path_entries
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.scene_view import SceneView
 from rvsim.gui.session import Session
@@ -43,6 +44,8 @@ class Stage(QObject):
         super().__init__(parent)
         self._session, self._motion, self._preferences, self._view = session, motion, preferences, view
         self._path: tuple[Item, ...] = ()
+        self._legend = PathLegend(view)
+        self._legend_more: tuple[Entry, ...] = ()
         self._trail = np.empty((0, 3))
         self._trail_times = np.empty(0)
         self._trail_up: NDArray[np.bool_] | None = None
@@ -65,6 +68,7 @@ class Stage(QObject):
         motion.moved.connect(lambda _: self._show_opening())
         view.set_outliers(lambda: np.concatenate([self._target_corners(), self._drawn_corners()]))
         preferences.changed.connect(self._on_preference)
+        self._show_legend()
         self.show()
 
     @property
@@ -110,6 +114,17 @@ class Stage(QObject):
         """From the next picture on: while the gripper moves, the arm need not."""
         if self.opening != self._shown_opening:
             self._stale.start()
+
+    def explain(self, entries: tuple[Entry, ...]) -> None:
+        """Tell these in the legend too, instead of those before: what a page draws beside the tracked path."""
+        if entries != self._legend_more:
+            self._legend_more = entries
+            self._show_legend()
+
+    def _show_legend(self) -> None:
+        trail = bool(self._preferences["show_trail"])
+        told = path_entries(self._session.tracking, self.palette, trail=trail)
+        self._legend.show_entries((*told, *self._legend_more), self.palette)
 
     def _show_at(self, q: FloatArray) -> None:
         self._shown_q, self._shown_opening = q, self.opening
@@ -181,6 +196,7 @@ class Stage(QObject):
     def _on_tracking(self, tracking: Tracking | None) -> None:
         self._path = self._path_items(tracking)
         self._trail_up = self._lifted()
+        self._show_legend()
         self.show()
 
     def _on_loaded(self) -> None:
@@ -191,6 +207,7 @@ class Stage(QObject):
     def _on_preference(self, name: str) -> None:
         if name in _SCENE_SETTINGS:
             self._path = self._path_items(self._session.tracking)
+            self._show_legend()
             self.show()
 
     # --- pieces ----------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from rvsim.dynamics import inverse_dynamics
 from rvsim.errors import NoMassDataError
 from rvsim.kinematics import forward_kinematics, jacobian
 from rvsim.motion import Tracking, Trajectory
+from rvsim.motion.between import offsets_from_path
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
@@ -85,21 +86,21 @@ class Curves:
         return wanted
 
     @cached_property
-    def deviation(self) -> FloatArray | None:
-        """(m,) how far the tool is from the polyline of the path [m], NaN on the way to it; None without a path.
+    def offset(self) -> FloatArray | None:
+        """(m, 3) from the path to the tool [m], base axes, NaN on the way to it; None without a path.
 
-        Measured to the nearest place on the two pieces about where it should be, so that a tool that is only late or
+        Measured from the nearest place on the pieces about where it should be, so that a tool that is only late or
         early on the path does not count as off it.
         """
         if self.tracking is None or self.path_index is None:
             return None
-        points = self.tracking.path.points
-        if len(points) < 2:
-            return np.asarray(np.linalg.norm(self.place - points[0], axis=1))
-        piece = np.clip(np.nan_to_num(self.path_index).astype(int), 0, len(points) - 2)
-        neighbours = (np.clip(piece + shift, 0, len(points) - 2) for shift in (-1, 0, 1))
-        away = np.min([_distance(self.place, points[i], points[i + 1]) for i in neighbours], axis=0)
-        return np.asarray(np.where(np.isnan(self.path_index), np.nan, away))
+        away = offsets_from_path(self.tracking.path.points, self.place, self.path_index)
+        return np.where(np.isnan(self.path_index)[:, None], np.nan, away)
+
+    @property
+    def deviation(self) -> FloatArray | None:
+        """(m,) how far the tool is from the polyline of the path [m], NaN on the way to it; None without a path."""
+        return None if self.offset is None else np.asarray(np.linalg.norm(self.offset, axis=1))
 
 
 def curves_of(robot: Robot, trajectory: Trajectory, tracking: Tracking | None = None, samples: int = 1000) -> Curves:
@@ -109,13 +110,6 @@ def curves_of(robot: Robot, trajectory: Trajectory, tracking: Tracking | None = 
     if tracking is not None:
         along = np.array([trajectory.path_index(t) if trajectory.phase(t) == "path" else np.nan for t in times])
     return Curves(robot, frozen_array("times", times, (-1,)), *trajectory.at(times), tracking, along)
-
-
-def _distance(places: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-    """(m,) from places (m, 3) to the pieces from starts to ends (m, 3)."""
-    steps, offsets = ends - starts, places - starts
-    along = np.sum(offsets * steps, axis=1) / np.maximum(np.sum(steps**2, axis=1), 1e-30)
-    return np.asarray(np.linalg.norm(offsets - np.clip(along, 0.0, 1.0)[:, None] * steps, axis=1))
 
 
 def largest(values: ArrayLike) -> float:

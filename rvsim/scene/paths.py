@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rvsim.scene.palette import ScenePalette
-from rvsim.scene.primitives import Dots, Item, Label, Labels, Polyline
+from rvsim.scene.primitives import Dots, Item, Label, Labels, Polyline, Segments
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -76,3 +78,39 @@ def _crosses(points: FloatArray, palette: ScenePalette, key: str) -> list[Item]:
     chosen = points[np.unique(np.linspace(0, len(points) - 1, min(len(points), 40)).astype(int))]
     labels = tuple(Label(point, "×", palette.unreached, (-4.5, 5.0), 15.0) for point in chosen)
     return [Labels(f"{key}.unreached", labels)]
+
+
+def deviation_items(
+    place: ArrayLike,
+    offset: ArrayLike,
+    breaks: ArrayLike,
+    gaps: Sequence[ArrayLike],
+    palette: ScenePalette,
+    *,
+    times: float = 1.0,
+    key: str = "deviation",
+) -> tuple[Item, ...]:
+    """Where the tool goes: along the path as a line, off it on purpose dashed, and its offsets magnified.
+
+    Args:
+        place, offset: (k, 3) where the tool is, and how far from the path [m].
+        breaks: rows at which another stretch begins.
+        gaps: (g, 3) each: where it goes at jumps and over missed stretches [m].
+        times: how many times the offsets are magnified; 1 leaves that picture out.
+    """
+    places, offsets = np.asarray(place, dtype=np.float64), np.asarray(offset, dtype=np.float64)
+    rows = [run for run in np.split(np.arange(len(places)), np.asarray(breaks, dtype=int)) if len(run) > 1]
+    items: list[Item] = [
+        Polyline(f"{key}.along{number}", places[run], palette.actual, 2.2) for number, run in enumerate(rows)
+    ]
+    items += [
+        Polyline(f"{key}.off{number}", np.asarray(gap, dtype=np.float64), palette.actual, 1.2, dashed=True)
+        for number, gap in enumerate(gaps)
+    ]
+    if times != 1.0:
+        wanted = places - offsets
+        far = wanted + times * offsets
+        whiskers = np.stack([wanted, far], axis=1).reshape(-1, 3)
+        items.append(Segments(f"{key}.whiskers", whiskers, palette.limit.faded(0.45), 1.0))
+        items += [Polyline(f"{key}.far{number}", far[run], palette.limit, 1.4) for number, run in enumerate(rows)]
+    return tuple(items)

@@ -1,17 +1,18 @@
-"""The Compare page: the same path by the closed form and by each numeric solver in one table (source 000)."""
+"""The Compare page: asked against done, and the same path by the closed form and each numeric solver (source 000)."""
 
 from __future__ import annotations
 
 import math
 from functools import partial
 
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from rvsim.errors import RvsimError
 from rvsim.experiment import Experiment
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how_steps import wrapped_label
+from rvsim.gui.panels.path_deviation import DeviationSection
 from rvsim.gui.panels.path_page import PathPage
 from rvsim.gui.panels.path_rows import RowsModel, TextRow, as_csv, as_text, rows_table
 from rvsim.gui.parts_worker import PartsWorker
@@ -19,6 +20,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_scientific, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
+from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import button, column_of, scrolled
 from rvsim.lab.repairs import path_of
@@ -60,6 +62,10 @@ class ComparePage(PathPage):
         self.worker.part.connect(self._on_part)
         self.worker.done.connect(self._on_done)
         self.model = RowsModel(self._heads(session.robot))
+        self.deviation = DeviationSection(session, preferences, motion)
+        self.deviation.chosen.connect(self._refresh_if_seen)
+        session.tracking_changed.connect(lambda _: self._refresh_if_seen())
+        motion.loaded.connect(self._refresh_if_seen)
         self._make_widgets()
         self._lay_out()
         self._show_busy(False)
@@ -88,6 +94,10 @@ class ComparePage(PathPage):
         column = QVBoxLayout(inside)
         column.setContentsMargins(10, 8, 10, 8)
         column.setSpacing(8)
+        column.addWidget(self.deviation)
+        methods = QLabel("Methods")
+        set_role(methods, role="title")
+        column.addWidget(methods)
         column.addWidget(self.intro)
         row = QHBoxLayout()
         for widget in (self.run_button, self.cancel_button):
@@ -149,7 +159,10 @@ class ComparePage(PathPage):
     # --- showing -----------------------------------------------------------------------------------------------------
 
     def refresh(self) -> None:
-        """The last comparison in the present units."""
+        """The deviation of what is tracked, and the last comparison, in the present units."""
+        self.deviation.measure(self._tracker.trajectory)
+        self.draw(self.deviation.items(self._stage.palette))
+        self._stage.explain(self.deviation.legend(self._stage.palette))
         robot = self._session.robot if self._of is None else self._of[0]
         factor = display(length_kind(robot), self._preferences).factor
         rows = [TextRow(_texts(entry, factor), _tip(entry)) for entry in self.entries]
@@ -157,6 +170,12 @@ class ComparePage(PathPage):
         self.table.setVisible(bool(rows))
         self.verdict.setText(self._verdict() if self._of else "")
         self.copy.setEnabled(bool(rows))
+
+    def set_seen(self, seen: bool) -> None:
+        """The legend tells of this page's lines only while they are there."""
+        super().set_seen(seen)
+        if not seen:
+            self._stage.explain(())
 
     def concerns(self, before: Experiment, after: Experiment) -> bool:
         """Only another arm: the table is of a path, not of a pose."""

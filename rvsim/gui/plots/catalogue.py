@@ -15,7 +15,7 @@ from rvsim.playback.curves import Curves
 from rvsim.robot.arrays import FloatArray
 
 _AXIS_COLORS = ("#D55E00", "#009E73", "#0072B2")
-_TOOL_COLOR, _WANTED_COLOR = "#0072B2", "#888888"
+_TOOL_COLOR, _OFF_COLOR = "#0072B2", "#B5179E"
 NEAR_SINGULAR = 0.02  # σ below it is marked
 
 
@@ -134,15 +134,17 @@ def _sigma(curves: Curves, _preferences: Preferences) -> Drawing:
 
 
 def _deviation(curves: Curves, preferences: Preferences) -> Drawing:
-    if curves.deviation is None:
+    offset, deviation = curves.offset, curves.deviation
+    if offset is None or deviation is None:
         return Drawing("Deviation", "", empty="No path: track a line or a trajectory first.")
     kind: Kind = length_kind(curves.robot)
     shown = display(kind, preferences)
     unit, factor = shown.suffix.strip(), shown.factor
-    largest = float(np.nanmax(np.abs(curves.deviation))) if np.isfinite(curves.deviation).any() else 0.0
-    if kind == "length" and largest * factor < 0.01:
+    largest = float(np.nanmax(deviation)) if np.isfinite(deviation).any() else 0.0
+    if kind == "length" and largest * shown.factor < 0.01:
         unit, factor = "µm", 1e6
-    return Drawing("Deviation", unit, (Line("deviation", _TOOL_COLOR, curves.deviation * factor),))
+    axes = (Line(f"Δ{axis}", _AXIS_COLORS[i], offset[:, i] * factor) for i, axis in enumerate("xyz"))
+    return Drawing("Deviation", unit, (Line("deviation", _OFF_COLOR, deviation * factor), *axes))
 
 
 PLOTS: tuple[PlotKind, ...] = (

@@ -138,6 +138,9 @@ class PlotsPanel(QWidget):
 
     def _on_preference(self, name: str) -> None:
         """The same curves in other colours, units or letters."""
+        if name == "plots":
+            for each, made in self._buttons.items():
+                made.setChecked(each in self._preferences["plots"].split(","))
         if name in _SETTINGS and self.isVisible() and not self._stale:
             QTimer.singleShot(0, self, self._draw)  # when the theme is worn
 

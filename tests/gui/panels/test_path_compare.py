@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
 from rvsim.experiment import TrajectoryTask
@@ -18,6 +19,7 @@ from rvsim.gui.scene_view import SceneView
 from rvsim.gui.stage import Stage
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import column_of
+from rvsim.kinematics import forward_kinematics
 
 
 @pytest.fixture
@@ -77,3 +79,66 @@ def test_other_units_change_the_heads_and_the_numbers(page: ComparePage, prefere
     assert page.model.headerData(3, Qt.Orientation.Horizontal) == "max mm"
     preferences.set("length_unit", "m")
     assert page.model.headerData(3, Qt.Orientation.Horizontal) == "max m"
+
+
+def numbers(page: ComparePage) -> dict[str, tuple[str, ...]]:
+    return {row.texts[0]: row.texts[1:] for row in page.deviation.model.rows}
+
+
+def choose(box: QComboBox, data: str) -> None:
+    box.setCurrentIndex(box.findData(data))
+    box.activated.emit(box.currentIndex())
+
+
+def drawn(page: ComparePage) -> set[str]:
+    return {item.key.rstrip("0123456789") for item in page._stage._layers.get("path_compare", ())}
+
+
+def test_asked_and_done_are_told_for_each_axis_at_the_points_and_between_them(page: ComparePage) -> None:
+    section = page.deviation
+    assert list(numbers(page)) == ["x", "y", "z", "all"]
+    between = float(numbers(page)["all"][2].replace("\u2212", "-"))
+    choose(section.where, "points")
+    assert float(numbers(page)["all"][2].replace("\u2212", "-")) < 1e-9 * between
+    assert "µs a point" in section.solved.text()
+    assert len(section.copy._formats["CSV"]().splitlines()) == 5
+
+
+def test_the_deviation_is_magnified_in_the_scene_and_the_legend_says_how_much(page: ComparePage) -> None:
+    legend = page._stage._legend
+    assert drawn(page) == {"deviation.along"}
+    assert [entry.text for entry in legend.entries] == ["path asked for", "where the tool went"]
+    choose(page.deviation.times, "1000")
+    assert drawn(page) == {"deviation.along", "deviation.whiskers", "deviation.far"}
+    assert legend.entries[-1].text == "deviation 1000 ×"
+    page.set_seen(False)
+    assert not drawn(page)
+    assert len(legend.entries) == 2
+
+
+def test_missed_stretches_have_looks_of_their_own(page: ComparePage) -> None:
+    page._session.edit("path", replace(page._session.experiment, trajectory=TrajectoryTask("ellipse")))
+    page._tracker.track_trajectory()
+    page._motion.pause()
+    assert "deviation.off" in drawn(page)
+    texts = {entry.text: entry for entry in page._stage._legend.entries}
+    assert texts["not reached"].dashed
+    assert texts["not reached"].sign == "×"
+    assert texts["off the path on purpose"].dashed
+    assert "70 points are missed" in page.deviation.told.text()
+
+
+def test_a_click_goes_to_where_the_tool_is_the_farthest_off(page: ComparePage, qtbot: QtBot) -> None:
+    off = page.deviation.off
+    assert off is not None
+    qtbot.mouseClick(page.deviation.worst, Qt.MouseButton.LeftButton)
+    tool = forward_kinematics(page._session.robot, page._session.q)[:3, 3]
+    there = off.place[np.argmax(off.distance)]
+    assert np.linalg.norm(tool - there) < 1e-3
+
+
+def test_the_curves_are_a_click_away(page: ComparePage, preferences, qtbot: QtBot) -> None:
+    preferences.set("plots", "q")
+    qtbot.mouseClick(page.deviation.curves, Qt.MouseButton.LeftButton)
+    assert preferences["show_plots"]
+    assert preferences["plots"] == "q,deviation"
