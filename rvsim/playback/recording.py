@@ -127,7 +127,7 @@ class Recorder:
         self._count, self._stride, self._offered = 0, 1, 0
 
     def add(self, t: float, desired: FloatArray, commanded: FloatArray, measured: FloatArray | None = None) -> None:
-        """One moment: poses (n,) [rad, m]; None: nothing was measured just then."""
+        """One moment: poses (n,) [rad, m]; None: nothing was measured just then. Moments need not come in order."""
         pair, self._offered = self._offered // 2, self._offered + 1
         if pair % self._stride:
             return
@@ -148,5 +148,6 @@ class Recorder:
     def recording(self, kind: str = "nothing") -> Recording:
         """What has been taken so far; a copy that does not change any more."""
         n, table = self._joints, self._table[: self._count]
+        table = table[np.argsort(table[:, 0], kind="stable")]
         columns = (table[:, 1 : 1 + n], table[:, 1 + n : 1 + 2 * n], table[:, 1 + 2 * n :])
         return Recording(table[:, 0], *columns, kind)

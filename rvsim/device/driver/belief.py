@@ -53,13 +53,15 @@ class Belief:
         early = (time < self._course.begins) & np.isfinite(self._before.goal)
         return np.where(early, self._before.at(time), self._course.at(time))
 
-    def send(self, raw: FloatArray, arrives: float, seconds: float) -> None:
+    def send(self, raw: FloatArray, arrives: float, seconds: float, wakes_at: FloatArray | None = None) -> None:
         """Axes that are not NaN in raw (m,) were sent there; the line arrives at a time and asks for so many seconds.
 
-        An axis that was asleep jumps.
+        An axis that was asleep begins at `wakes_at` (m,) where that is known, and jumps where not.
         """
         told = np.isfinite(raw)
         here = self.at(arrives)
+        if wakes_at is not None:
+            here = np.where(np.isfinite(here), here, wakes_at)
         self._before.take(self._course, told)
         self._course.start[told] = np.where(np.isfinite(here), here, raw)[told]
         self._course.goal[told] = raw[told]

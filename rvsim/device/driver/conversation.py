@@ -9,14 +9,14 @@ from typing import Any, Literal
 import numpy as np
 
 from rvsim.device.driver.belief import Belief
-from rvsim.device.driver.language import Latched, Measured, Named, Noticed, Reported
+from rvsim.device.driver.language import Latched, Measured, Named, Noticed, Reported, Unfit
 from rvsim.device.driver.languages import LanguageName, language_of
 from rvsim.device.driver.motions import Following, Running
 from rvsim.device.driver.orders import Order, Paces
 from rvsim.device.driver.plan import shown
 from rvsim.device.driver.state import DriverState, MeasuredKind, Phase
 from rvsim.device.driver.watch import FORGOTTEN, Watch, disobeyed
-from rvsim.device.driver.wire import Wire
+from rvsim.device.driver.wire import Log, Wire, no_log
 from rvsim.playback.recording import Recorder, Recording
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -45,15 +45,22 @@ class Conversation:
         language: "ssc32" or "bridge".
         baud: [bit/s] of the wire.
         potentiometers: the SSC-32's analog inputs are wired to the joints' potentiometers.
+        log: is told of every line both ways, with its time [s].
 
     Raises:
         RobotDefinitionError: the arm has no servos, or one that allows no value of its joint.
     """
 
     def __init__(
-        self, robot: Robot, *, language: LanguageName = "ssc32", baud: int = 9600, potentiometers: bool = False
+        self,
+        robot: Robot,
+        *,
+        language: LanguageName = "ssc32",
+        baud: int = 9600,
+        potentiometers: bool = False,
+        log: Log = no_log,
     ) -> None:
-        self._robot, self._baud = robot, baud
+        self._robot, self._baud, self._log = robot, baud, log
         self._language = language_of(language, robot, potentiometers=potentiometers)
         self._m = self._language.axes
         self._paces = Paces(robot, self._m)
@@ -65,7 +72,7 @@ class Conversation:
     def _forget_all(self, now: float) -> None:
         """As if nothing had ever been said to the board."""
         self._language.forget()
-        self._wire = Wire(self._language, self._baud)
+        self._wire = Wire(self._language, self._baud, self._log)
         self._wire.now = now
         self._belief, self._watch = Belief(self._m), Watch(self._m)
         self._motion: Following | Running | None = None
@@ -98,6 +105,14 @@ class Conversation:
         """Between two set-points [s]: what the wire carries, in whole servo frames."""
         count = self._language.set_point_bytes + _SHARE * self._language.question_bytes
         return _FRAME * math.ceil(self._wire.seconds(1) * count / _FRAME)
+
+    @property
+    def stride(self) -> float:
+        """How long a set-point's move is told to take [s]: over when the next one comes.
+
+        The board begins the next one where it was in the last servo frame. A move that was not over would fall behind.
+        """
+        return self.period - 0.5 * _FRAME if self.period > 1.5 * _FRAME else 0.001
 
     @property
     def recording(self) -> Recording:
@@ -196,7 +211,7 @@ class Conversation:
         if not held and (self._say_order() or self._say_set_point()):
             return
         busy = self._motion is not None or self._moving
-        if self._wire.questions.may_ask(self._wire.now, _BUSY if busy else _IDLE):
+        if self._wire.questions.may_ask(self._wire.now, _BUSY if busy else _IDLE, not self._language.named_answers):
             self._at_ask = self._belief.at(self._wire.now)
             self._wire.ask(self._language.poll() if self._board else self._language.hello())
 
@@ -212,17 +227,25 @@ class Conversation:
             return True
         seconds = self._paces.seconds(self._ways(order.raw), order)
         line = (self._language.wake if order.wake else self._language.set_points)(order.raw, seconds)
-        self._belief.send(order.raw, self._wire.say(line), seconds)
+        self._belief.send(order.raw, self._wire.say(line), seconds, self._wakes_at if order.wake else None)
         if order.wake:
-            self._watch.woke(order.raw, self._wire.now)
+            self._watch.woke(order.raw, self._wire.now, seconds)
         return True
 
+    @property
+    def _wakes_at(self) -> FloatArray:
+        """(m,) raw: from where axes that wake begin; NaN where they jump."""
+        sensed = self._language.raw(self._measured) if self._language.gentle else self._report
+        return np.where(np.isfinite(self._report), self._report, sensed)
+
     def _ways(self, raw: FloatArray) -> FloatArray:
-        """(m,) how far each axis has to go at most, in values: from where it should be, or is reported."""
+        """(m,) how far each axis has to go at most, in values: from where it should be, is reported, or measured."""
         goal = self._language.values(raw)
         ways = np.abs(goal - self._language.values(self._belief.at(self._wire.now)))
         if self._wire.now - self._reported_at < _RECENT:
             ways = np.fmax(ways, np.abs(goal - self._language.values(self._report)))
+        if self._kind not in ("nothing", "commanded pulse"):
+            ways = np.fmax(ways, np.abs(goal - self._measured))
         return np.asarray(ways)
 
     def _say_set_point(self) -> bool:
@@ -233,14 +256,14 @@ class Conversation:
         if q is None:
             return False
         raw = self._clamp(q)
-        self._belief.send(raw, self._wire.say(self._language.set_points(raw, period)), period)
+        self._belief.send(raw, self._wire.say(self._language.set_points(raw, self.stride)), self.stride)
         self._due = self._due + period if now < self._due + period else now + period
         self._record(now)
         return True
 
     def _next_pose(self, motion: Following | Running, now: float, period: float) -> FloatArray | None:
         if isinstance(motion, Running):
-            return motion.next(now, self._wire.seconds(self._language.set_point_bytes) + period, period)
+            return motion.next(now, self._wire.seconds(self._language.set_point_bytes) + self.stride, period)
         here = self._language.values(self._belief.at(now))[: self._robot.dof]
         return motion.next(here, period)
 
@@ -263,7 +286,7 @@ class Conversation:
             self._motion = motion = None
         over = motion.over(moving) if isinstance(motion, Running) else motion and motion.over(self._wire.now, moving)
         if over:
-            self._motion, self._clamped = None, ()
+            self._motion = None
         if self._recorded and self._recorded.time(self._wire.now, self.period) > self._recorded.plan.duration + _SETTLE:
             self._recorded = None
 
@@ -311,7 +334,7 @@ class Conversation:
         if self._kind in ("nothing", "commanded pulse"):
             self._take(self._language.values(event.raw), "commanded pulse")
         if self._mode == "connecting":
-            self._mode = "open"
+            self._open()
         elif self._mode == "stopped":
             self._check_rest(event.raw)
         else:
@@ -319,10 +342,17 @@ class Conversation:
 
     def _hear_measurement(self, event: Measured) -> None:
         self._take(event.values, event.kind)
+        if self._mode == "connecting" and math.isfinite(self._reported_at):
+            self._open()
+
+    def _open(self) -> None:
+        """Connected when everything that can be known is known."""
+        if self._kind != "commanded pulse" or not self._language.gentle:
+            self._mode = "open"
 
     def _take(self, values: FloatArray, kind: MeasuredKind) -> None:
         self._measured, self._kind = values, kind
-        self._record(self._wire.now, values[: self._robot.dof])
+        self._record(min(self._wire.questions.reached_at, self._wire.now), values[: self._robot.dof])
 
     def _hear_notice(self, event: Noticed) -> None:
         self._notice = event.sentence
@@ -330,6 +360,9 @@ class Conversation:
     def _hear_latched(self, event: Latched) -> None:
         if self._mode == "open":
             self._latch(event.sentence)
+
+    def _hear_unfit(self, event: Unfit) -> None:
+        self.lose(event.sentence)
 
     def _check_report(self, raw: FloatArray) -> None:
         asked, now = self._wire.questions.asked_at, self._wire.now
@@ -349,12 +382,11 @@ class Conversation:
         """After a stop: where the axes stand. Where they still move the stop has not arrived, and is said again."""
         if self._wire.questions.asked_at < self._wire.cut_until:
             return
-        creeps = self._rests is not None and bool(np.any(np.abs(raw - self._rests) > _CREEP))
-        if creeps:
+        if self._rests is None:
+            self._rests = raw
+            self._belief.hold(np.where(self._belief.awake, raw, np.nan))
+        elif np.any(np.abs(raw - self._rests) > _CREEP):
             self._latch(self._reason)
-            return
-        self._rests = raw
-        self._belief.hold(np.where(self._belief.awake, raw, np.nan))
 
 
 _HEARD: dict[type, Callable[[Conversation, Any], None]] = {
@@ -363,4 +395,5 @@ _HEARD: dict[type, Callable[[Conversation, Any], None]] = {
     Measured: Conversation._hear_measurement,
     Noticed: Conversation._hear_notice,
     Latched: Conversation._hear_latched,
+    Unfit: Conversation._hear_unfit,
 }

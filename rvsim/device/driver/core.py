@@ -105,6 +105,8 @@ class DriverCore(Conversation):
     def _connect(self, _: actions.Connect) -> Refusal | None:
         if self.wants_port:
             return Refusal("The arm is connected already. Disconnect first.")
+        if self._wire.has_urgent:
+            return Refusal("The last stop is still on its way. Connect in a moment.")
         self._forget_all(self._wire.now)
         self._mode, self._reason = "connecting", ""
         return None

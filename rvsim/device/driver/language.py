@@ -51,13 +51,22 @@ class Latched:
     sentence: str
 
 
-Event: TypeAlias = Named | Reported | Measured | Noticed | Latched
+@dataclass(frozen=True)
+class Unfit:
+    """The board cannot drive this arm."""
+
+    sentence: str
+
+
+Event: TypeAlias = Named | Reported | Measured | Noticed | Latched | Unfit
 
 
 class ArmLanguage(Protocol):
     """A codec with a memory of what it has asked. m axes: the joints, and the gripper where the board has one."""
 
     title: str
+    named_answers: bool  # whether an answer tells what it answers; else the line must be silent before a question
+    gentle: bool  # whether an axis that wakes begins where its sensor says it is; else it jumps
 
     @property
     def axes(self) -> int:
@@ -96,7 +105,7 @@ class ArmLanguage(Protocol):
         """Another calibration; whether the axes are still the same, on the same channels."""
         ...
 
-    def jogged(self, channel: int, pulse_us: float) -> tuple[int, float] | str:
+    def jogged(self, channel: int, pulse_us: float, /) -> tuple[int, float] | str:
         """The axis of a channel and its raw number at a pulse, or why there is none."""
         ...
 
@@ -112,7 +121,7 @@ class ArmLanguage(Protocol):
         """Switch an axis off."""
         ...
 
-    def stop(self, awake: Sequence[bool]) -> tuple[bytes, ...]:
+    def stop(self, awake: Sequence[bool], /) -> tuple[bytes, ...]:
         """The emergency stop: what is most urgent first; the rest follows when the wire is free."""
         ...
 
@@ -126,6 +135,10 @@ class ArmLanguage(Protocol):
 
     def poll(self) -> bytes:
         """Ask where the axes are."""
+        ...
+
+    def lines(self, data: bytes) -> tuple[bytes, ...]:
+        """What was said, cut into what one would say at a time."""
         ...
 
     @property

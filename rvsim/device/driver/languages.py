@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
+from rvsim.device.driver.bridge_language import BridgeLanguage
 from rvsim.device.driver.language import ArmLanguage
 from rvsim.device.driver.ssc32_language import Ssc32Language
-from rvsim.errors import RobotDefinitionError, UnknownNameError
+from rvsim.errors import RobotDefinitionError
 from rvsim.robot import Robot
 
 LanguageName = Literal["ssc32", "bridge"]
@@ -20,6 +21,6 @@ def language_of(name: LanguageName, robot: Robot, *, potentiometers: bool = Fals
     """
     if not robot.servos:
         raise RobotDefinitionError(robot.name, "it has no [[servo]] tables, so nothing can be sent to its joints.")
-    if name != "ssc32":
-        raise UnknownNameError("language", name, ["ssc32"])
+    if name == "bridge":
+        return BridgeLanguage(robot)
     return Ssc32Language(robot, potentiometers=potentiometers)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rvsim.device.driver.actions import Playable, Refusal
 from rvsim.motion import joint_move
@@ -42,11 +43,12 @@ class Plan:
         """[s]."""
         return float(self.times[-1])
 
-    def q(self, time: float) -> FloatArray:
-        """(n,) at a time [s], clamped."""
-        index = int(np.clip(np.searchsorted(self.times, time, side="right") - 1, 0, len(self.times) - 2))
+    def q(self, t: ArrayLike) -> FloatArray:
+        """(n,) at a time [s], or (j, n) at times (j,); clamped."""
+        times = np.clip(np.asarray(t, dtype=np.float64), self.begins, self.duration)
+        index = np.clip(np.searchsorted(self.times, times, side="right") - 1, 0, len(self.times) - 2)
         start, end = self.times[index], self.times[index + 1]
-        part = min(max((time - start) / (end - start), 0.0), 1.0)
+        part = ((times - start) / (end - start))[..., None]
         return np.asarray(self.poses[index] + part * (self.poses[index + 1] - self.poses[index]))
 
     def after(self, approach: Plan) -> Plan:

@@ -8,7 +8,7 @@ import math
 # one answer is given less time for the next ones.
 PATIENCE = (0.7, 0.25, 0.25)  # [s]
 # An answer that comes twice, or late, must be over before the next question: answers carry no name.
-QUIET = 0.02  # [s]
+QUIET, MOST_NOISE = 0.02, 0.3  # [s]; a line that is never quiet is asked nevertheless
 OVERDUE = 0.15  # [s] a board that answers later may be starting again: nothing is sent to its servos meanwhile
 
 
@@ -26,6 +26,11 @@ class Questions:
     def asked_at(self) -> float:
         """When the last question was put on the wire [s]."""
         return self._asked
+
+    @property
+    def reached_at(self) -> float:
+        """When the last question had arrived at the board [s]: that is the moment its answer is about."""
+        return self._arrived
 
     @property
     def silent(self) -> bool:
@@ -62,6 +67,12 @@ class Questions:
         """Whether an answer should have come."""
         return self.unanswered > 0 or (self._open and now > self._arrived + OVERDUE)
 
-    def may_ask(self, now: float, interval: float) -> bool:
-        """Whether it is time for the next question, so many seconds after the last one."""
-        return not self._open and now >= self._asked + interval and now >= self._heard + QUIET
+    def may_ask(self, now: float, interval: float, quiet: bool) -> bool:
+        """Whether it is time for the next question, so many seconds after the last one.
+
+        Args:
+            quiet: answers carry no name, so that the line must be silent first.
+        """
+        since = now - self._asked
+        silent = not quiet or now >= self._heard + QUIET or since >= interval + MOST_NOISE
+        return not self._open and since >= interval and silent

@@ -10,6 +10,7 @@ import numpy as np
 from rvsim.device.driver.language import Event, Measured, Named, Reported
 from rvsim.device.ssc32.commands import Move, Query, QueryPulses, QueryVersion, ReadAnalog, ServoMove, Stop
 from rvsim.device.ssc32.host_side import encode
+from rvsim.device.ssc32.lines import CR
 from rvsim.device.ssc32.replies import ReplyDecoder
 from rvsim.device.virtual.inputs import ANALOG, potentiometer_pulse
 from rvsim.robot import Robot
@@ -30,6 +31,7 @@ class Ssc32Language:
     """
 
     title = "SSC-32"
+    named_answers = gentle = False
 
     def __init__(self, robot: Robot, *, potentiometers: bool = False) -> None:
         self._channels: tuple[int, ...] = ()
@@ -151,6 +153,11 @@ class Ssc32Language:
         if self._analog_turn:
             return self._asked(ReadAnalog(tuple(range(self._taps))))
         return self._asked(QueryPulses(self._channels))
+
+    def lines(self, data: bytes) -> tuple[bytes, ...]:
+        """At each CR."""
+        *whole, rest = data.split(CR)
+        return (*(line + CR for line in whole), *((rest,) if rest else ()))
 
     def _asked(self, query: Query) -> bytes:
         self._replies.expect(query)

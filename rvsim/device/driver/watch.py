@@ -19,12 +19,13 @@ class Watch:
     """Remembers when axes were woken, and how often in a row a report was wrong."""
 
     def __init__(self, axes: int) -> None:
-        self._woken = np.full(axes, np.inf)
+        self._woken, self._steady = np.full(axes, np.inf), np.full(axes, np.inf)
         self._strikes = 0
 
-    def woke(self, axes: FloatArray, now: float) -> None:
-        """Those of axes (m,) that are not NaN were told to wake."""
+    def woke(self, axes: FloatArray, now: float, seconds: float) -> None:
+        """Those of axes (m,) that are not NaN were told to wake, and in so many seconds to be where they were sent."""
         self._woken[np.isfinite(axes)] = now
+        self._steady[np.isfinite(axes)] = now + seconds
         self._strikes = 0
 
     def forgotten(self, belief: Belief, reported: FloatArray, asked: float) -> bool:
@@ -37,7 +38,7 @@ class Watch:
     ) -> int | None:
         """The axis that is, for the third time in a row, far from all places where it should have been lately."""
         least, most = belief.between(asked - _MARGIN, now)
-        settled = self._woken + _MARGIN < asked
+        settled = self._steady + _MARGIN < asked
         excess = np.maximum(least - reported, reported - most) - tolerance
         excess = np.where(settled & np.isfinite(excess), excess, -np.inf)
         worst = int(np.argmax(excess))

@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
+from typing import Literal, TypeAlias
 
 from rvsim.device.driver.language import ArmLanguage, Event
 from rvsim.device.driver.outbox import Outbox
 from rvsim.device.driver.questions import Questions
+
+Log: TypeAlias = Callable[[float, Literal["→", "←"], bytes], None]
+_LONGEST_ANSWER = 256  # bytes that are put together for the log
+
+
+def no_log(_time: float, _direction: Literal["→", "←"], _data: bytes) -> None:
+    """For those who keep none."""
 
 
 class Wire:
@@ -15,10 +24,12 @@ class Wire:
     Args:
         language: what is spoken.
         baud: [bit/s].
+        log: told of whole lines when they have been handed out, of pieces that were cut, and of answers.
     """
 
-    def __init__(self, language: ArmLanguage, baud: int) -> None:
-        self.language = language
+    def __init__(self, language: ArmLanguage, baud: int, log: Log = no_log) -> None:
+        self.language, self._log = language, log
+        self._said, self._heard = bytearray(), bytearray()
         self.now = 0.0
         self._outbox, self._baud = Outbox(baud), baud
         self.questions = Questions()
@@ -45,8 +56,11 @@ class Wire:
         self.questions.hear(self.now)
         owed = self.language.pending
         events = self.language.feed(received)
+        self._heard += received
         if owed and not self.language.pending:
             self.questions.answer(self.now)
+        if not self.language.pending or len(self._heard) > _LONGEST_ANSWER:
+            self._log_heard()
         return events
 
     def missed(self) -> bool:
@@ -54,6 +68,7 @@ class Wire:
         if not self.questions.missed(self.now):
             return False
         self.language.forget()
+        self._log_heard()
         return True
 
     @property
@@ -86,10 +101,12 @@ class Wire:
         """What was asked is not awaited any more."""
         self.language.forget()
         self.questions.drop()
+        self._log_heard()
 
     def cut(self, lines: tuple[bytes, ...]) -> None:
         """Throw away what waits; the first line is urgent, the others follow. What was asked is not awaited."""
         self._outbox.clear(self.now)
+        self._log_said()
         self.ignore()
         self._urgent, self._rest = lines[0], deque(lines[1:])
         self.cut_until = self.now + self.seconds(sum(map(len, lines)))
@@ -100,7 +117,9 @@ class Wire:
             return None
         self._outbox.put(self._urgent, self.now)
         self._urgent = b""
-        return self._outbox.take_all(self.now)
+        self._said += (piece := self._outbox.take_all(self.now))
+        self._log_said()
+        return piece
 
     @property
     def has_urgent(self) -> bool:
@@ -109,4 +128,17 @@ class Wire:
 
     def take(self) -> bytes:
         """What to write now."""
-        return self._outbox.take(self.now)
+        self._said += (piece := self._outbox.take(self.now))
+        if self._outbox.empty:
+            self._log_said()
+        return piece
+
+    def _log_said(self) -> None:
+        for line in self.language.lines(bytes(self._said)):
+            self._log(self.now, "→", line)
+        self._said.clear()
+
+    def _log_heard(self) -> None:
+        if self._heard:
+            self._log(self.now, "←", bytes(self._heard))
+        self._heard.clear()

@@ -1,0 +1,271 @@
+"""The driver at a real port: one thread that reads, writes and keeps time, whatever a window does meanwhile."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import logging
+import threading
+import time
+from collections.abc import Callable, Sequence
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+import serial
+from numpy.typing import ArrayLike
+
+import rvsim.device  # so that pyserial knows al5b://  # noqa: F401
+from rvsim.device.driver import actions
+from rvsim.device.driver.actions import Action, Axis, Playable, Refusal
+from rvsim.device.driver.core import DriverCore
+from rvsim.device.driver.languages import LanguageName
+from rvsim.device.driver.state import DriverState
+from rvsim.device.wire_log import WireLog
+from rvsim.playback.recording import Recording
+from rvsim.robot import GripperServo, Robot, Servo
+from rvsim.robot.arrays import FloatArray
+
+if TYPE_CHECKING:
+    from rvsim.device.virtual.arm import VirtualArm
+
+_logger = logging.getLogger(__name__)
+
+_TICK, _IDLE_TICK = 0.004, 0.02  # [s] between looks at the port: while the arm may move, and otherwise
+_WRITE_TIMEOUT = 0.2  # [s] pieces are so small that a port which does not take one in this time is stuck
+_CLOSING = 3.0  # [s] a close waits for the thread at most
+_MOST_READ = 4096  # bytes
+
+
+class ArmDriver:
+    """An arm at a port. Every method may be called from any thread and returns at once; `state` is what is known.
+
+    Methods that ask for something return None, or a `Refusal` whose sentence says why not.
+
+    Args:
+        robot: with servos.
+        url: what pyserial opens: "COM3", "/dev/ttyUSB0", "al5b://", "socket://host:port", "rfc2217://host:port".
+        baud: [bit/s].
+        language: "ssc32" or "bridge".
+        potentiometers: the SSC-32's analog inputs are wired to the joints' potentiometers.
+        log: where every line goes; a new one if none is given.
+
+    Raises:
+        RobotDefinitionError: the arm has no servos, or one that allows no value of its joint.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        url: str = "al5b://",
+        *,
+        baud: int = 9600,
+        language: LanguageName = "ssc32",
+        potentiometers: bool = False,
+        log: WireLog | None = None,
+    ) -> None:
+        self.url, self.baud, self.language = url, baud, language
+        self.log = WireLog() if log is None else log
+        self._core = DriverCore(robot, language=language, baud=baud, potentiometers=potentiometers, log=self.log.add)
+        self._lock, self._wake = threading.Lock(), threading.Event()
+        self._published = threading.Condition()
+        self._state = self._core.state
+        self._began = time.monotonic()
+        self._port: Any = None
+        self._arm: VirtualArm | None = None
+        self._closing = False
+        self._thread: threading.Thread | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, problem: BaseException | None, _: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # --- to be read at any time ----------------------------------------------------------------------------------
+
+    @property
+    def state(self) -> DriverState:
+        """What the driver knows; a value that costs nothing to read."""
+        return self._state
+
+    @property
+    def robot(self) -> Robot:
+        """With the servos in use."""
+        return self._core.robot
+
+    @property
+    def limits(self) -> FloatArray:
+        """(n, 2) what arm and servos both allow [rad, m]."""
+        return self._core.limits
+
+    @property
+    def recording(self) -> Recording:
+        """Of the trajectory that runs, or of the last one; a copy that stays as it is."""
+        with self._lock:
+            return self._core.recording
+
+    @property
+    def virtual(self) -> VirtualArm | None:
+        """The arm behind an `al5b://` port, for its faults and its true pose; None at other ports."""
+        return self._arm
+
+    def wait(self, until: Callable[[DriverState], bool], seconds: float) -> bool:
+        """Block until a state fulfils a condition, at most so many seconds; whether it does. Not for a window."""
+        with self._published:
+            return self._published.wait_for(lambda: until(self._state), seconds)
+
+    # --- to be asked for -------------------------------------------------------------------------------------------
+
+    def connect(self) -> Refusal | None:
+        """Open the port and ask the board for its name. Nothing moves. Also after the port was lost."""
+        if self._closing:
+            return Refusal("This driver has been closed.")
+        refusal = self._do(actions.Connect())
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._live, name=f"arm at {self.url}", daemon=True)
+            self._thread.start()
+            atexit.register(self.close)
+        return refusal
+
+    def disconnect(self) -> Refusal | None:
+        """Stop what moves and close the port; the servos hold."""
+        return self._do(actions.Disconnect())
+
+    def wake(self, axis: Axis, value: float) -> Refusal | None:
+        """The first move of a joint (from 0) or "gripper", at full speed, to q [rad, m] or an opening."""
+        return self._do(actions.Wake(axis, value))
+
+    def move_to(self, q: ArrayLike, seconds: float | None = None) -> Refusal | None:
+        """All joints together to q (n,) [rad, m]."""
+        return self._do(actions.MoveTo(q, seconds))
+
+    def stream(self, q: ArrayLike) -> Refusal | None:
+        """Follow: the newest q (n,) counts."""
+        return self._do(actions.Stream(q))
+
+    def run(self, trajectory: Playable, *, approach: bool = False) -> Refusal | None:
+        """Follow a trajectory, from its start or after a calm way there."""
+        plan = self._core.plan(trajectory)  # takes a while for a long one: not while the thread would have to wait
+        return plan if isinstance(plan, Refusal) else self._do(actions.Run(plan, approach))
+
+    def hold(self) -> Refusal | None:
+        """End what moves, without latching anything."""
+        return self._do(actions.Hold())
+
+    def grip(self, opening: float, seconds: float | None = None) -> Refusal | None:
+        """The gripper to an opening, 0 closed … 1 open."""
+        return self._do(actions.Grip(opening, seconds))
+
+    def jog_pulse(self, channel: int, pulse_us: float, seconds: float | None = None) -> Refusal | None:
+        """One awake channel to a pulse [µs], for calibration."""
+        return self._do(actions.JogPulse(channel, pulse_us, seconds))
+
+    def limp(self, axis: Axis) -> Refusal | None:
+        """Switch a joint (from 0) or "gripper" off."""
+        return self._do(actions.Limp(axis))
+
+    def stop(self, reason: str = "The emergency stop was pressed.") -> Refusal | None:
+        """The emergency stop. Latches."""
+        return self._do(actions.StopAll(reason))
+
+    def reset(self) -> Refusal | None:
+        """Leave the latched stop. Nothing moves."""
+        return self._do(actions.Reset())
+
+    def use_servos(self, servos: Sequence[Servo], gripper_servo: GripperServo | None) -> Refusal | None:
+        """Another calibration."""
+        return self._do(actions.UseServos(servos, gripper_servo))
+
+    def close(self) -> None:
+        """Stop what moves, close the port and end the thread; waits for it, a fraction of a second as a rule."""
+        self._closing = True
+        self._do(actions.Disconnect())
+        thread = self._thread
+        if thread is not None and thread is not threading.current_thread():
+            thread.join(_CLOSING)
+        atexit.unregister(self.close)
+
+    def _do(self, action: Action) -> Refusal | None:
+        with self._lock:
+            refusal = self._core.do(action)
+            self._publish()
+        self._wake.set()
+        return refusal
+
+    def _publish(self) -> None:
+        self._state = self._core.state
+        with self._published:
+            self._published.notify_all()
+
+    # --- the thread ----------------------------------------------------------------------------------------------
+
+    def _live(self) -> None:
+        while not (self._closing and self._port is None):
+            try:
+                self._turn()
+            except (serial.SerialException, OSError) as problem:
+                self._lose(f"The port {self.url} is lost: {problem}")
+            except Exception as problem:  # whatever it is: the arm must not be left without a driver
+                _logger.exception("the driver's thread")
+                self._lose(f"Something went wrong inside the driver: {problem!r}. The port is closed.")
+            self._wake.wait(_TICK if self._state.phase not in ("disconnected", "lost") else _IDLE_TICK)
+            self._wake.clear()
+
+    def _turn(self) -> None:
+        wanted = self._core.wants_port and not self._closing
+        if wanted and self._port is None:
+            self._open()
+        elif not wanted and self._port is not None:
+            self._leave()
+        if self._port is not None:
+            self._exchange()
+
+    def _open(self) -> None:
+        try:
+            port = serial.serial_for_url(
+                self.url, baudrate=self.baud, timeout=0, write_timeout=_WRITE_TIMEOUT, exclusive=True
+            )
+            port.reset_input_buffer()
+        except (serial.SerialException, OSError, ValueError, ImportError) as problem:
+            self._lose(f"The port {self.url} cannot be opened: {problem}")
+            return
+        self._port, self._arm = port, getattr(port, "arm", None)
+
+    def _exchange(self) -> None:
+        self._write_urgent()
+        received = self._port.read(_MOST_READ)
+        with self._lock:
+            out = self._core.process(time.monotonic() - self._began, received)
+            self._publish()
+        self._write_urgent()
+        if out:
+            self._port.write(out)
+
+    def _write_urgent(self) -> bool:
+        with self._lock:
+            first = self._core.urgent()
+        if first is None:
+            return False
+        self._port.reset_output_buffer()
+        self._port.write(first)
+        return True
+
+    def _leave(self) -> None:
+        """Let a last stop out, then close."""
+        if self._write_urgent():
+            time.sleep(0.1)
+        self._close_port()
+
+    def _lose(self, sentence: str) -> None:
+        with self._lock:
+            self._core.lose(sentence)
+            self._publish()
+        self._close_port()
+
+    def _close_port(self) -> None:
+        port, self._port = self._port, None
+        if port is not None:
+            with contextlib.suppress(Exception):  # a port that is gone cannot be closed either
+                port.close()
