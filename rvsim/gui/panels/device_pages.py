@@ -6,6 +6,7 @@ from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.page_stack import Page
 from rvsim.gui.panels.device_drive import DrivePage
 from rvsim.gui.panels.device_virtual import VirtualPage
+from rvsim.gui.panels.device_wire import WirePage
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.served_arm import ServedArm
 from rvsim.gui.session import Session
@@ -19,6 +20,7 @@ def device_pages(
     arguments = (session, preferences, stage, device)
     pages = (
         (DrivePage(*arguments), "Connect an arm, wake it, let it follow or run"),
+        (WirePage(*arguments), "Every line that goes to the arm and comes back, in words"),
         (VirtualPage(*arguments, served), "Faults of the virtual arm, and other programs that drive one"),
     )
     return tuple(Page(page.name, page.title, tip, page) for page, tip in pages)
