@@ -1,0 +1,85 @@
+"""`rvsim arm --serve`: the virtual arm for other programs, until Ctrl-C."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rvsim.cli.endings import ending_signals_interrupt
+from rvsim.cli.outcome import DONE
+from rvsim.cli.output import print_result
+from rvsim.errors import DeviceError
+
+if TYPE_CHECKING:
+    from rvsim.device.link.serve import Server
+
+_LOOK_AGAIN = 0.2  # [s]
+
+
+def serve(options: argparse.Namespace) -> int:
+    """Serve until an ending signal; the exit status."""
+    with ending_signals_interrupt():
+        server = _server(options)
+        try:
+            _print_how_to_connect(options, server)
+            _watch(server)
+        except KeyboardInterrupt:
+            pass
+        finally:
+            server.close()
+    if server.problem:
+        raise DeviceError(server.address, f"serving has ended: {server.problem}")
+    return DONE
+
+
+def _server(options: argparse.Namespace) -> Server:
+    from rvsim.device.link.options import ArmOptions, new_arm
+    from rvsim.device.link.pty_wire import usual_link
+    from rvsim.device.link.serve import serve_pty, serve_tcp
+
+    described = ArmOptions(
+        robot=options.robot,
+        seed=options.seed or 0,
+        language=options.language,
+        potentiometers=options.potentiometers,
+    )
+    arm = new_arm(described)
+    if options.serve == "tcp":
+        return serve_tcp(arm, port=options.tcp_port or 0, baud=options.baud)
+    return serve_pty(arm, link=Path(options.link) if options.link else usual_link(), baud=options.baud)
+
+
+def _print_how_to_connect(options: argparse.Namespace, server: Server) -> None:
+    call = f'serial.serial_for_url("{server.address}", {server.baud}, timeout=1)'
+    record: dict[str, Any] = {
+        "address": server.address,
+        "baud": options.baud,
+        "robot": options.robot,
+        "language": options.language,
+        "seed": options.seed or 0,
+        "pyserial": call,
+    }
+    rate = f"{options.baud} baud" if options.baud else "whichever baud rate a client chooses"
+    lines = (
+        f"The virtual arm {options.robot} ({options.language}) answers at {server.address}, at {rate}.",
+        f"  pyserial:  {call}",
+        f"  rvsim:     rvsim arm --port {server.address}",
+        "Ctrl-C ends it.",
+    )
+    print_result(options, record, "\n".join(lines))
+    sys.stdout.flush()
+
+
+def _watch(server: Server) -> None:
+    """Until it has ended by itself; a client at another rate than the board's is told here, where someone looks."""
+    matched = True
+    while not server.wait(_LOOK_AGAIN):
+        if matched and not server.matches:
+            print(
+                f"rvsim: a client talks at {server.baud} baud, the board at {server.board_baud}: both hear garbage.",
+                file=sys.stderr,
+                flush=True,
+            )
+        matched = server.matches
