@@ -22,14 +22,14 @@ from rvsim.robot.edits import original_name
 
 MINOR_FORMULAS = tuple(f"{name} = {formula}" for name, _, formula in MINORS)
 SPLIT_FORMULAS = (
-    r"\det J_{11}",
-    r"\det J_{22}",
-    r"\det J_{11}\,\det J_{22}",
-    r"\det J",
+    r"\det\,J_{11}",
+    r"\det\,J_{22}",
+    r"\det\,J_{11}\,\det\,J_{22}",
+    r"\det\,J",
 )
 RV_1A_FACTORS = (
-    Equation(r"\det J_{11}", r"a_2\,(a_3 s_3 - d_4 c_3)\,(a_2 c_2 + a_3 c_{23} + d_4 s_{23})", "", ""),
-    Equation(r"\det J_{22}", r"-\sin q_5", "", ""),
+    Equation(r"\det\,J_{11}", r"a_2\,(a_3 s_3 - d_4 c_3)\,(a_2 c_2 + a_3 c_{23} + d_4 s_{23})", "", ""),
+    Equation(r"\det\,J_{22}", r"-\sin q_5", "", ""),
 )
 
 
@@ -169,8 +169,8 @@ class PlanarBlock(ArmBlock):
         self.stretch = button(
             "singular_figure",
             "Show figure 4.1",
-            "Stretch the arm: q₂ = 0",
-            lambda: self.go.emit(self._stretched, "Stretch"),
+            "Stretch the arm, q₂ = 0, and draw the ellipses",
+            self._show_figure,
         )
         self.ellipses = QCheckBox("Ellipses along the bend of the elbow")
         self.ellipses.setObjectName("singular_ellipses")
@@ -181,6 +181,10 @@ class PlanarBlock(ArmBlock):
         self._stretched: FloatArray = np.zeros(2)
         self.column.addWidget(self.ellipses)
         self.column.addWidget(self.stretch)
+
+    def _show_figure(self) -> None:
+        self.ellipses.setChecked(True)
+        self.go.emit(self._stretched, "Stretch")
 
     def show_pose(self, robot: Robot, q: FloatArray) -> None:
         """The stretched arm has joint 1 as it is."""

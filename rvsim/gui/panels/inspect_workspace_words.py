@@ -9,6 +9,7 @@ import numpy as np
 from rvsim.gui.panels.inspect_workspace_survey import Survey
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, format_quantity, length_kind
+from rvsim.kinematics.singularity import task_rows
 from rvsim.kinematics.workspace import SectionMap, WorkspaceTask, has_branches, holds_orientation
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -32,6 +33,8 @@ FIGURES = {
     "planar": f"The planar arm of {_SOURCE}'s figure 4.1 reaches a ring: its rims are the boundary singularities, "
     "stretched out and folded back.",
 }
+_WHOLE = 6  # rows of J
+_TASKS = {(0, 1): "x, y", (0, 1, 2): "the place", (0, 1, 2, 5): "place and yaw"}
 EMPTY = "No workspace yet: press Sample, and see where the tool can go."
 
 
@@ -50,9 +53,16 @@ def values_of(survey: Survey, section: SectionMap, color: str) -> Values:
         return Values(section.branches, _largest(survey, color), "branches, the most at each place", whole=True)
     if color == "none":
         return Values(None, 1.0, "")
-    shape = "√det(JᵀJ)" if survey.workspace.task.robot.dof < 6 else "√det(JJᵀ)"
-    title = f"largest manipulability {shape}, SI"
+    title = f"largest manipulability {_measure(survey.workspace.task.robot)}, SI"
     return Values(section.manipulability, _largest(survey, "manipulability"), title)
+
+
+def _measure(robot: Robot) -> str:
+    """What Yoshikawa's measure is of this arm's task."""
+    rows = task_rows(robot)
+    if len(rows) < _WHOLE:
+        return f"of {_TASKS[rows]}"
+    return "√det(JᵀJ)" if robot.dof < _WHOLE else "√det(JJᵀ)"
 
 
 def cloud_shares(survey: Survey, color: str) -> FloatArray:

@@ -14,7 +14,10 @@ _SWEEP = 361  # points of a curve
 _ROOTS = 73  # steps between which a critical angle is looked for
 _BISECTIONS = 30
 
+_BESIDE = 1.3  # cells: what lies there is another cell, at either side
+
 Section = Callable[[FloatArray], FloatArray]  # joints (m, k) -> points (m, 2)
+Measure = Callable[[FloatArray], FloatArray]  # joints (m, k) -> numbers (m,)
 
 
 def cell_outline(grid: Grid, reached: BoolArray) -> FloatArray:
@@ -80,29 +83,36 @@ def _swept(ranges: FloatArray, free: int, others: list[int], values: tuple[float
 def _critical(
     section: Section, ranges: FloatArray, pair: tuple[int, int], others: list[int], values: tuple[float, ...]
 ) -> list[FloatArray]:
-    """Where two joints move the point along one line: for each value of the first, the roots of the second."""
+    """Where two joints move the point along one line."""
+    return zero_curves(lambda q: _area(section, q, pair), ranges, pair, others, values)
+
+
+def zero_curves(
+    function: Measure, ranges: FloatArray, pair: tuple[int, int], others: list[int], values: tuple[float, ...]
+) -> list[FloatArray]:
+    """Curves of joints (m, k) where a function of them is 0: for each value of the first, the roots of the second."""
     first, second = pair
     q = np.empty((_SWEEP, _ROOTS, len(ranges)))
     q[..., first] = np.linspace(ranges[first, 0], ranges[first, 1], _SWEEP)[:, None]
     q[..., second] = np.linspace(ranges[second, 0], ranges[second, 1], _ROOTS)
     q[..., others] = values
-    area = _area(section, q.reshape(-1, len(ranges)), pair).reshape(_SWEEP, _ROOTS)
+    area = function(q.reshape(-1, len(ranges))).reshape(_SWEEP, _ROOTS)
     size = np.abs(area).max()
     if size < 1e-15:
         return []
     rows, columns = np.nonzero((area[:, :-1] > 0.0) != (area[:, 1:] > 0.0))
     if not len(rows):
         return []
-    roots = _bisected(section, q[rows, columns], q[rows, columns + 1], pair)
+    roots = _bisected(function, q[rows, columns], q[rows, columns + 1])
     return _threads(roots, rows, second, 4.0 * float(np.ptp(ranges[second])) / _ROOTS)
 
 
-def _bisected(section: Section, low: FloatArray, high: FloatArray, pair: tuple[int, int]) -> FloatArray:
+def _bisected(function: Measure, low: FloatArray, high: FloatArray) -> FloatArray:
     low, high = low.copy(), high.copy()
-    positive = _area(section, low, pair) > 0.0
+    positive = function(low) > 0.0
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
-        same = (_area(section, middle, pair) > 0.0) == positive
+        same = (function(middle) > 0.0) == positive
         low[same], high[~same] = middle[same], middle[~same]
     return 0.5 * (low + high)
 
@@ -129,6 +139,23 @@ def _area(section: Section, q: FloatArray, pair: tuple[int, int]) -> FloatArray:
         velocities.append((section(ahead) - section(behind)) / (2.0 * step))
     (a, b), (c, d) = (velocity.T for velocity in velocities)
     return np.asarray(a * d - b * c)
+
+
+def border_pieces(grid: Grid, reached: BoolArray, pieces: FloatArray) -> BoolArray:
+    """Which line pieces (k, 2, 2) have places that are not reached at one side: the others end at the border."""
+    if not len(pieces):
+        return np.zeros(0, dtype=bool)
+    along = pieces[:, 1] - pieces[:, 0]
+    across = np.stack([-along[:, 1], along[:, 0]], axis=-1)
+    across *= _BESIDE * grid.cell / np.maximum(np.linalg.norm(across, axis=-1, keepdims=True), 1e-300)
+    middle = pieces.mean(axis=1)
+    columns, rows = grid.shape
+    padded = np.pad(reached, 1)
+    sides = []
+    for beside in (middle + across, middle - across):
+        index = np.clip(np.floor((beside - grid.lower) / grid.cell).astype(np.intp) + 1, 0, (columns + 1, rows + 1))
+        sides.append(padded[index[:, 0], index[:, 1]])
+    return np.asarray(~(sides[0] & sides[1]))
 
 
 def at_an_edge(grid: Grid, reached: BoolArray, points: FloatArray) -> BoolArray:

@@ -1,7 +1,8 @@
 """Where the tool is and how nimble it is there, for a million poses: only what a workspace needs, on one tape.
 
-The manipulability of Yoshikawa (1985), √det(J Jᵀ) or √det(Jᵀ J), does not change when joint 1 moves the whole arm, so
-joint 1 is left out of it: the Jacobian is written for q1 = 0.
+The manipulability of Yoshikawa (1985), √det(J Jᵀ) or √det(Jᵀ J), is that of the arm's own task: J has the rows of
+x and y for a planar arm, of the place for three joints. It does not change when joint 1 moves the whole arm, so joint 1
+is left out of it: the Jacobian is written for q1 = 0.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 
 from rvsim.kinematics.chain import Axis, Vector, Walk, combined, cross
 from rvsim.kinematics.forward import link_transforms
+from rvsim.kinematics.singularity import task_rows
 from rvsim.kinematics.tape import Number, Player, Tape
 from rvsim.kinematics.workspace.grid import BoolArray
 from rvsim.robot import Joint, Robot
@@ -22,7 +24,6 @@ from rvsim.spatial.arrays import FloatArray
 
 _UPRIGHT = 1e-9
 _TURN = 2.0 * math.pi
-_ROWS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +79,7 @@ def places_and_manipulability(robot: Robot, q: FloatArray) -> tuple[FloatArray, 
     """
     values = _player(robot).play(q)
     det = values[:, 3]
-    return values[:, :3], np.abs(det) if robot.dof == _ROWS else np.sqrt(np.maximum(det, 0.0))
+    return values[:, :3], np.abs(det) if robot.dof == len(task_rows(robot)) else np.sqrt(np.maximum(det, 0.0))
 
 
 @lru_cache(maxsize=16)
@@ -93,7 +94,9 @@ def _player(robot: Robot) -> Player:
         tool = walk.origin
     else:
         tool = place
-    columns = [_column(joint, axis, place) for joint, axis in zip(robot.joints, axes, strict=True)]
+    rows = task_rows(robot)
+    whole = (_column(joint, axis, place) for joint, axis in zip(robot.joints, axes, strict=True))
+    columns = [[column[row] for row in rows] for column in whole]
     return tape.player([*tool, _squared_measure(columns)], (4,))
 
 
@@ -118,10 +121,11 @@ def _column(joint: Joint, axis: Axis, tool: Vector) -> list[Number]:
 
 
 def _squared_measure(columns: list[list[Number]]) -> Number:
-    """det J of six joints; det(Jᵀ J) of fewer, det(J Jᵀ) of more."""
-    if len(columns) == _ROWS:
+    """det J of as many joints as rows; det(Jᵀ J) of fewer, det(J Jᵀ) of more."""
+    rows = len(columns[0])
+    if len(columns) == rows:
         return determinant(columns)
-    vectors = columns if len(columns) < _ROWS else [list(row) for row in zip(*columns, strict=True)]
+    vectors = columns if len(columns) < rows else [list(row) for row in zip(*columns, strict=True)]
     return determinant([[_dot(a, b) for b in vectors] for a in vectors])
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import partial
+from itertools import product
 
 import numpy as np
 
 from rvsim.kinematics.workspace.grid import BoolArray, Grid
-from rvsim.kinematics.workspace.outline import at_an_edge, stopping_curves
+from rvsim.kinematics.workspace.outline import at_an_edge, border_pieces, stopping_curves, zero_curves
 from rvsim.kinematics.workspace.place import Turntable, places_and_manipulability
 from rvsim.kinematics.workspace.sampling import PoseSampler, edge_values
 from rvsim.spatial.arrays import FloatArray
@@ -33,7 +35,23 @@ class Rim:
             return None
         edges = edge_values(self._robot, self._ranges)
         curves = stopping_curves(self._flat, self._ranges[moving], tuple(edges[joint] for joint in moving))
-        return np.concatenate([self._kept(curve, grid, reached) for curve in curves])
+        curves += self._turned_out()
+        pieces = np.concatenate([self._kept(curve, grid, reached) for curve in curves])
+        return pieces[border_pieces(grid, reached, pieces)]
+
+    def _turned_out(self) -> list[FloatArray]:
+        """Curves of two moving joints (m, 2) on which joint 1 stands at a stop, and can turn them no further."""
+        if len(self._moving) != 2 or self._table.goes_round(self._ranges[0]):
+            return []
+        ranges, curves = self._ranges[self._moving], []
+        for side, stop, pair in product((0.0, math.pi), self._ranges[0].tolist(), ((0, 1), (1, 0))):
+            curves += zero_curves(partial(self._beyond, side, stop), ranges, pair, [], ())
+        return curves
+
+    def _beyond(self, side: float, stop: float, values: FloatArray) -> FloatArray:
+        """(m,) the sine of how far beyond a stop joint 1 would have to turn: 0 at the stop, and half a turn from it."""
+        phi = self._cylindrical(self._poses(values))[1]
+        return np.sin(self._table.sense * (self._azimuth + side - phi) - stop)
 
     def _moving_joints(self, q: FloatArray) -> list[int]:
         """The joints that move the tool within the plane."""

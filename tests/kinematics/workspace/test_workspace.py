@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from rvsim.errors import NoClosedFormError
 from rvsim.files import load_robot
 from rvsim.kinematics import branch_labels, forward_kinematics, inverse_kinematics, jacobian, limit_copies
+from rvsim.kinematics.singularity import task_rows
 from rvsim.kinematics.workspace import (
     SectionMap,
     Workspace,
@@ -23,7 +24,7 @@ from rvsim.kinematics.workspace import (
     workspace_parts,
 )
 from rvsim.kinematics.workspace.branches import branch_counts, within_limits
-from rvsim.kinematics.workspace.outline import cell_outline
+from rvsim.kinematics.workspace.outline import border_pieces, cell_outline
 from rvsim.kinematics.workspace.place import determinant, places_and_manipulability, turntable
 from rvsim.kinematics.workspace.sampling import PoseSampler, joint_ranges
 
@@ -55,7 +56,7 @@ def reached_at(section: SectionMap, points: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", ARMS)
-def test_places_and_manipulability_are_those_of_the_whole_arm(name: str) -> None:
+def test_places_are_those_of_the_whole_arm_and_the_manipulability_is_that_of_its_task(name: str) -> None:
     robot = load_robot(name)
     q = np.random.default_rng(1).uniform(-2.0, 2.0, (200, robot.dof))
     places, measure = places_and_manipulability(robot, q)
@@ -63,7 +64,7 @@ def test_places_and_manipulability_are_those_of_the_whole_arm(name: str) -> None
     if table is not None:
         places = table.placed(places, q[:, 0])
     assert places == pytest.approx(forward_kinematics(robot, q)[:, :3, 3], abs=1e-12)
-    singular_values = np.linalg.svd(jacobian(robot, q), compute_uv=False)
+    singular_values = np.linalg.svd(jacobian(robot, q)[:, task_rows(robot)], compute_uv=False)
     # det(Jᵀ J) loses half of the digits where it is nearly 0.
     assert measure == pytest.approx(singular_values.prod(axis=1), rel=1e-6, abs=1e-7)
 
@@ -137,6 +138,18 @@ def test_it_can_be_given_up_after_any_part() -> None:
 
 
 # --- the edges ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["rv-m1", "articulated", "spherical", "cylindrical", "scara"])
+def test_an_exact_rim_closes_and_nothing_of_it_lies_within(name: str) -> None:
+    side = surveyed(name, poses=400_000).side
+    assert side.exact
+    assert border_pieces(side.grid, side.reached, side.outline).all()
+    # Whoever stands at the border of the cells has the rim beside him.
+    border = cell_outline(side.grid, side.reached).mean(axis=1)
+    rim = side.outline.mean(axis=1)
+    away = np.linalg.norm(border[:, None] - rim, axis=-1).min(axis=1)
+    assert away.max() < 4.0 * side.grid.cell
 
 
 def test_the_rv_m1_reaches_as_far_from_its_shoulder_as_its_links_are_long() -> None:
