@@ -85,7 +85,7 @@ def _connect(driver: ArmDriver) -> None:
     driver.wait(lambda state: state.phase != "connecting", _CONNECTING)
     state = driver.state
     if not state.connected:
-        raise DeviceError(driver.url, (state.reason or "it does not answer").rstrip("."))
+        raise DeviceError(driver.url, "no arm has been reached", state.reason)
 
 
 def _perform(driver: ArmDriver, request: _Request, agreed: bool) -> tuple[list[str], str]:

@@ -52,24 +52,32 @@ def _server(options: argparse.Namespace) -> Server:
 
 
 def _print_how_to_connect(options: argparse.Namespace, server: Server) -> None:
-    call = f'serial.serial_for_url("{server.address}", {server.baud}, timeout=1)'
+    follows = options.baud is None and options.serve == "pty"
     record: dict[str, Any] = {
         "address": server.address,
-        "baud": options.baud,
+        "baud": None if follows else server.baud,
         "robot": options.robot,
         "language": options.language,
         "seed": options.seed or 0,
-        "pyserial": call,
+        "pyserial": f'serial.serial_for_url("{server.address}", {server.baud}, timeout=1)',
+        "rvsim": _asking(options, server),
     }
-    rate = f"{options.baud} baud" if options.baud else "whichever baud rate a client chooses"
+    rate = "whichever baud rate a client chooses" if follows else f"{server.baud} baud"
     lines = (
         f"The virtual arm {options.robot} ({options.language}) answers at {server.address}, at {rate}.",
-        f"  pyserial:  {call}",
-        f"  rvsim:     rvsim arm --port {server.address}",
+        f"  pyserial:  {record['pyserial']}",
+        f"  rvsim:     {record['rvsim']}",
         "Ctrl-C ends it.",
     )
     print_result(options, record, "\n".join(lines))
     sys.stdout.flush()
+
+
+def _asking(options: argparse.Namespace, server: Server) -> str:
+    """The command that talks to the arm, with what is not as usual."""
+    unusual = {"robot": "al5b", "language": "ssc32", "baud": None}
+    given = [f"--{name} {getattr(options, name)}" for name, usual in unusual.items() if getattr(options, name) != usual]
+    return " ".join(["rvsim arm --port", server.address, *given])
 
 
 def _watch(server: Server) -> None:
