@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -160,16 +159,17 @@ class WirePage(InspectPage):
         self.empty.setVisible(nothing)
         self.inside.setVisible(not nothing)
         self._rest.setVisible(nothing)
+        self.trial.setVisible(self.model.words.language == "ssc32")
         _say(self.counters, self._counters())
         _say(self.note, self._note())
         set_role(self.note, level="warning" if self.feed.paused else "")
 
     def _counters(self) -> str:
-        state, slowest = self._device.state, self.feed.slowest
         counted = f"{self._sent:,} bytes sent, {self._received:,} received."
-        if state is not None and not math.isnan(state.latency) and slowest:
-            return f"{counted} Answers after {milliseconds(state.latency)}, the slowest after {milliseconds(slowest)}."
-        return f"{counted} The slowest answer came after {milliseconds(slowest)}." if slowest else counted
+        if not self.feed.slowest:
+            return counted
+        latest, slowest = milliseconds(self.feed.latest), milliseconds(self.feed.slowest)
+        return f"{counted} Answers after {latest}, the slowest after {slowest}."
 
     def _note(self) -> str:
         lines, shown = len(self.model.lines), len(self.model.shown)

@@ -33,7 +33,7 @@ class WireFeed(QObject):
         self._read = 0  # so many entries there had been when we asked last
         self._waiting: deque[WireEntry] = deque(maxlen=MOST_ENTRIES)
         self.paused = False
-        self.slowest = 0.0  # of the answers [s]
+        self.latest = self.slowest = 0.0  # answer, after its question [s]; 0 where there was none
         self._again = QTimer(self, singleShot=True, interval=0)
         self._again.timeout.connect(self.pull)
 
@@ -48,7 +48,7 @@ class WireFeed(QObject):
         if log is not self.log:
             self.log, self._reader, self._read = log, READERS[language](), 0
             self._waiting.clear()
-            self.paused, self.slowest = False, 0.0
+            self.paused, self.latest, self.slowest = False, 0.0, 0.0
             self._model.start(Words(language, robot))
         elif robot is not words.robot:
             self._model.say(Words(words.language, robot))
@@ -78,5 +78,6 @@ class WireFeed(QObject):
         entries = [self._waiting.popleft() for _ in range(min(len(self._waiting), _AT_ONCE))]
         lines = self._reader.feed(entries)
         answers = [line.latency for line in lines if not math.isnan(line.latency)]
+        self.latest = answers[-1] if answers else self.latest
         self.slowest = max((self.slowest, *answers))
         return lines

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Literal, NamedTuple, TypeAlias
 
-from rvsim.device.bridge.frames import Frame, FrameDecoder
+from rvsim.device.bridge.frames import Frame, next_frame
 from rvsim.device.bridge.messages import Axes, Encoders, Poll, PollAxes, Stop, decode
 from rvsim.device.wire_log import Direction, WireEntry, printable
 
 Language = Literal["ssc32", "bridge"]
 SENT: Direction = "→"
 _QUESTION = re.compile(rb"[\x1b \t\n]*(?:[QVA-F]|RDFLT|R *\d+ *\r|SS *\r)", re.IGNORECASE)
-_POLLING = re.compile(rb"[\x1b \t\n]*(?:Q|V[A-H]|[A-F][A-FL \t]*\r)", re.IGNORECASE)
+_POLLING = re.compile(rb"[\x1b \t\n]*(?:Q|(?:V[A-H][ \t]*)+\r|[A-F][A-FL \t]*\r)", re.IGNORECASE)
 _POLLS = Poll | PollAxes | Encoders | Axes
 
 
@@ -79,27 +79,45 @@ class Ssc32Reader:
 
 
 class BridgeReader:
-    """Frames of the encoder bridge say themselves what they are."""
+    """Frames of the encoder bridge say themselves what they are; a board's answers repeat the number of the question.
+
+    They come as they like: a frame that is not whole yet waits for its rest, and two at once are two lines.
+    """
 
     def __init__(self) -> None:
         self._count = 0
-        self._asked = math.nan
+        self._asked: dict[int, float] = {}  # when the question of that number was sent [s]
+        self._rest = b""
 
     def feed(self, entries: Iterable[WireEntry]) -> tuple[Line, ...]:
         """The lines of these entries, which come after those of before."""
-        return tuple(map(self._line, entries))
+        return tuple(line for entry in entries for line in self._lines(entry))
 
-    def _line(self, entry: WireEntry) -> Line:
-        latency = math.nan
+    def _lines(self, entry: WireEntry) -> Iterator[Line]:
+        sent = entry.direction == SENT
+        rest = entry.data if sent else self._rest + entry.data
+        while (cut := next_frame(rest))[0]:
+            consumed, found = cut
+            yield self._line(entry._replace(data=rest[:consumed]), found if isinstance(found, Frame) else None)
+            rest = rest[consumed:]
+        if not sent:
+            self._rest = rest
+        elif rest:
+            yield self._line(entry._replace(data=rest), None)
+
+    def _line(self, entry: WireEntry, frame: Frame | None) -> Line:
+        number, self._count = self._count, self._count + 1
+        if frame is None:
+            return Line(number, entry, whole=False)
+        said = decode(frame)
+        polling, stops = isinstance(said, _POLLS), isinstance(said, Stop)
+        return Line(number, entry, polling=polling, stops=stops, latency=self._latency(entry, frame.sequence))
+
+    def _latency(self, entry: WireEntry, sequence: int) -> float:
         if entry.direction == SENT:
-            self._asked = entry.time
-        else:
-            latency, self._asked = max(entry.time - self._asked, 0.0), math.nan
-        said = [decode(found) for found in FrameDecoder().feed(entry.data) if isinstance(found, Frame)]
-        polling = bool(said) and all(isinstance(message, _POLLS) for message in said)
-        stops = any(isinstance(message, Stop) for message in said)
-        self._count += 1
-        return Line(self._count - 1, entry, polling=polling, whole=bool(said), stops=stops, latency=latency)
+            self._asked[sequence] = entry.time
+            return math.nan
+        return max(entry.time - self._asked.pop(sequence, math.nan), 0.0)
 
 
 Reader: TypeAlias = Ssc32Reader | BridgeReader

@@ -96,7 +96,7 @@ class TryLine(QWidget):
 
 def breakable(text: str) -> str:
     """May go on below before each #, and anywhere in what has none."""
-    parts = re.split(r"(?=#)", text)
+    parts = re.split(r"(?<!^)(?=#)", text)
     return _BREAK.join(part if len(part) <= _LONGEST_PART else _BREAK.join(part) for part in parts)
 
 

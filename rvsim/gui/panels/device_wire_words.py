@@ -56,8 +56,8 @@ def milliseconds(seconds: float) -> str:
 
 
 def sentence(text: str) -> str:
-    """With a capital at its beginning and a stop at its end."""
-    ended = text if text.endswith((".", "?", "!")) else f"{text}."
+    """With a capital at its beginning and a stop at its end, unless it asks."""
+    ended = text if text.endswith(".") or "?" in text else f"{text}."
     return ended[:1].upper() + ended[1:]
 
 
