@@ -146,7 +146,6 @@ class WirePage(InspectPage):
     def toggle_pause(self) -> None:
         """Hold the view, or let it go on."""
         self.feed.paused = not self.feed.paused
-        self.pause.setText("Resume" if self.feed.paused else "Pause")
         self.feed.pull()
 
     def _on_hide(self, hide: bool) -> None:
@@ -163,6 +162,7 @@ class WirePage(InspectPage):
         _say(self.counters, self._counters())
         _say(self.note, self._note())
         set_role(self.note, level="warning" if self.feed.paused else "")
+        self.pause.setText("Resume" if self.feed.paused else "Pause")
 
     def _counters(self) -> str:
         counted = f"{self._sent:,} bytes sent, {self._received:,} received."

@@ -213,6 +213,18 @@ def test_the_end_is_followed_until_somebody_scrolls_up(wire, qtbot):
     assert bar.value() == bar.maximum()
 
 
+def test_a_line_that_is_clicked_does_not_wander_off(wire, qtbot):
+    table = wire.find(QTableView, "wire_log")
+    wire.send(*[b"#0P%d\r" % (1000 + number) for number in range(200)])
+    QGuiApplication.processEvents()
+    middle = table.viewport().rect().center()
+    qtbot.mouseClick(table.viewport(), Qt.MouseButton.LeftButton, pos=middle)
+    clicked = table.indexAt(middle).row()
+    wire.send(*[b"STOP0\r"] * 20)
+    assert table.currentIndex().row() == clicked
+    assert table.visualRect(table.currentIndex()).intersects(table.viewport().rect())
+
+
 def test_the_oldest_lines_give_way_and_what_is_read_stays_in_sight(wire, found, qtbot):
     wire.page.model._most = 100
     wire.send(*[b"#0P%d\r" % (1000 + number) for number in range(100)])
@@ -266,5 +278,7 @@ def test_what_the_virtual_arm_said_can_be_read_after_the_connection_too(page, de
     assert any("no pulse" in sentence for sentence in words)
     assert not any(line.entry.data.startswith(b"#") for line in page.model.shown)
     assert "bytes sent" in page.findChild(QLabel, "wire_counters").text()
+    page.findChild(QPushButton, "wire_pause").click()
     device.connect_to("al5b://")
     assert len(page.model.shown) < len(words)
+    assert page.findChild(QPushButton, "wire_pause").text() == "Pause"
