@@ -235,3 +235,13 @@ def test_cartesian_joint_values_are_the_coordinates_of_the_tool() -> None:
     T = forward_kinematics(robot, q)
     assert_allclose(T[:, :3, 3], q, atol=1e-14)
     assert_allclose(T[:, :3, :3], np.broadcast_to(np.eye(3), (len(q), 3, 3)), atol=1e-14)
+
+
+@pytest.mark.parametrize(("name", "upper_mm", "fore_mm"), [("al5a", 95.25, 107.95), ("al5d", 146.05, 187.325)])
+def test_the_other_sizes_of_the_al5_are_files_alone(name: str, upper_mm: float, fore_mm: float) -> None:
+    """ROBOTS §2: 3.75 and 4.25 inches, 5.75 and 7.375 inches; everything else is the AL5B's."""
+    robot, al5b = load_robot(name), load_robot("al5b")
+    assert name not in robot_names()
+    assert [1e3 * joint.a for joint in robot.joints[2:4]] == pytest.approx([upper_mm, fore_mm])
+    assert robot.servos == al5b.servos
+    assert robot.gripper_servo == al5b.gripper_servo

@@ -19,12 +19,18 @@ from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _SOURCES = ("rv-m1", "rv-1a", "ur5e", "rrrp", "al5b")
+_EXAMPLES = ("al5a", "al5d")
 _TEXTBOOK = ("planar", "articulated", "spherical", "scara", "cylindrical", "cartesian")
 
 
 def robot_names() -> tuple[str, ...]:
     """The names of the built-in arms: those of the sources first, then the textbook arms."""
     return _SOURCES + _TEXTBOOK
+
+
+def example_names() -> tuple[str, ...]:
+    """Arms that come as examples of robot files; `load_robot` knows their names too."""
+    return _EXAMPLES
 
 
 def load_robot(name_or_path: str | Path) -> Robot:
@@ -36,8 +42,10 @@ def load_robot(name_or_path: str | Path) -> Robot:
         UnknownRobotError: neither a name nor a file that exists.
         RobotFileError: the file cannot be read or makes no arm.
     """
-    if isinstance(name_or_path, str) and name_or_path.strip().lower() in robot_names():
-        return _from_file(resource("robots", f"{name_or_path.strip().lower()}.toml"))
+    name = name_or_path.strip().lower() if isinstance(name_or_path, str) else ""
+    for folder, names in (("robots", robot_names()), ("examples", _EXAMPLES)):
+        if name in names:
+            return _from_file(resource(folder, f"{name}.toml"))
     path = Path(name_or_path)
     return _from_file(path) if _exists(path) else _own_by_name(str(name_or_path))
 
@@ -48,7 +56,7 @@ def _own_by_name(name: str) -> Robot:
     arms = {robot.name.lower(): robot for robot in user_robots().by_file.values()}
     robot = arms.get(name.strip().lower())
     if robot is None:
-        raise UnknownRobotError(name, (*robot_names(), *(arm.name for arm in arms.values())))
+        raise UnknownRobotError(name, (*robot_names(), *_EXAMPLES, *(arm.name for arm in arms.values())))
     return robot
 
 

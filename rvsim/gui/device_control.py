@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from rvsim.errors import RobotDefinitionError, RvsimError
 from rvsim.experiment import Experiment
+from rvsim.files import load_robot
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.user_robot import own_copy
 from rvsim.gui.preferences import Preferences
@@ -19,6 +20,7 @@ from rvsim.lab.before_running import objections
 from rvsim.lab.sentences import Units
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.arrays import FloatArray
+from rvsim.robot.edits import original_name
 from rvsim.robot.servos import within_servos
 
 if TYPE_CHECKING:
@@ -76,6 +78,11 @@ class DeviceControl(QObject):
         return self._state
 
     @property
+    def motion(self) -> MotionControl:
+        """The player of the window, which shows what the arm does."""
+        return self._motion
+
+    @property
     def virtual(self) -> VirtualArm | None:
         """The arm behind the wire, where it is one of this process."""
         return self._driver.virtual if self._driver else None
@@ -94,6 +101,7 @@ class DeviceControl(QObject):
 
     def connect_to(self, url: str, *, baud: int = 9600, language: LanguageName = "ssc32") -> None:
         """Open a port. Nothing moves; the limits of the servos count from now on."""
+        from rvsim.device.driver.addresses import completed, has_potentiometers, is_virtual
         from rvsim.device.driver.io_thread import ArmDriver  # nobody who has no arm waits for it at the start
 
         self.disconnect_device()
@@ -107,12 +115,14 @@ class DeviceControl(QObject):
             return
         try:
             narrowed = within_servos(robot)
-            driver = ArmDriver(robot, url, baud=baud, language=language)
+            address = completed(url, _name_on_disk(robot), language)
+            taps = has_potentiometers(address)
+            driver = ArmDriver(robot, address, baud=baud, language=language, potentiometers=taps)
         except RvsimError as problem:
             self._session.say(str(problem), "error")
             return
         self._driver = driver
-        self.title = "Virtual arm" if driver.virtual is not None or url.startswith("al5b:") else url
+        self.title = "Virtual arm" if is_virtual(url) else url
         self._narrow(narrowed)
         self._tell(driver.connect())
         self._timer.start()
@@ -333,3 +343,14 @@ class DeviceControl(QObject):
 
 def _tells_more(before: DriverState, after: DriverState) -> bool:
     return (before.phase, before.reason, before.clamped) != (after.phase, after.reason, after.clamped)
+
+
+def _name_on_disk(robot: Robot) -> str:
+    """The name under which the arm, or the one that it is an edited copy of, can be read: a virtual arm is like it."""
+    for name in (robot.name, original_name(robot)):
+        try:
+            if load_robot(name).servos:
+                return name
+        except RvsimError:
+            continue
+    return "al5b"

@@ -49,21 +49,19 @@ class DeviceScene(QObject):
             if state is None and self._served.arm is None:
                 self._timer.stop()
             return
-        title, robot, q = found
+        robot, q = found
         if self._shown is not None and len(self._shown) == len(q) and np.abs(self._shown - q).max() < _SAME:
             return
         self._shown = q
-        ghost = Ghost("device", title, q, True, lit=True)
+        ghost = Ghost("device", "", q, True, lit=True)
         self._stage.set_layer(LAYER, ghost_items(robot, [ghost], self._stage.palette))
 
-    def _place(self) -> tuple[str, Robot, FloatArray] | None:
-        """What to write beside it, the arm, and its joints; None when nobody knows."""
+    def _place(self) -> tuple[Robot, FloatArray] | None:
+        """The arm on the wire and its joints; None when nobody knows."""
         arm = self._device.virtual or self._served.arm
         if arm is not None:
-            title = "virtual arm" if self._device.virtual is not None else "driven by another program"
-            return title, arm.robot, arm.true_q
+            return arm.robot, arm.true_q
         state = self._device.state
         if state is None or not np.isfinite(state.measured_q).all():
             return None
-        title = "measured" if state.measured_kind in ("encoders", "potentiometers") else "pulses reported"
-        return title, self._session.robot, state.measured_q
+        return self._session.robot, state.measured_q

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rvsim.files import load_robot, open_robot, robot_names, user_robots
+from rvsim.files import example_names, load_robot, open_robot, robot_names, user_robots
 from rvsim.robot import Robot
 
 
 class RobotLibrary:
-    """Arms by name: the built-in ones and those of the user's folder, each file's under a name of its own."""
+    """Arms by name: the built-in ones, the examples and those of the user's folder, each under a name of its own."""
 
     def __init__(self) -> None:
-        self._robots: dict[str, Robot] = {name: load_robot(name) for name in robot_names()}
+        self._robots: dict[str, Robot] = {name: load_robot(name) for name in (*robot_names(), *example_names())}
         own = user_robots()
         self.problems = own.problems
         for robot in own.by_file.values():

@@ -24,6 +24,8 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, column_of, scrolled
 from rvsim.robot import Robot
 
+_GHOST_TRUE = "The translucent arm in the scene is where the virtual arm really is."
+_GHOST_BACK = "The translucent arm in the scene is what came back."
 _STEPS = 100  # of the gripper's slider
 _NO_SERVOS = (
     "The {arm} has no servos to drive: choose the Lynxmotion AL5B at the left, or an arm of your own whose robot file "
@@ -178,7 +180,7 @@ class DrivePage(InspectPage):
         awake = all(state.awake)
         self.send.setEnabled(free and awake and not self._device.live)
         self.live.setEnabled(free and awake)
-        self.run.setEnabled(free and awake)
+        self.run.setEnabled(awake and state.phase in ("ready", "streaming"))
         self.take.setVisible(awake and not state.busy and self._device.differs)
         grips = robot.gripper_servo is not None
         self.gripper.setEnabled(grips and free and state.gripper_awake)
@@ -188,7 +190,8 @@ class DrivePage(InspectPage):
         self.gripper_label.setText(_opening_words(state.gripper))
         self.readings.show_readings(robot, self._session.q, state)
         fit_height(self.table)
-        self.measured.setText(MEASURED_WORDS[state.measured_kind])
+        ghost = _GHOST_TRUE if self._device.virtual is not None else _GHOST_BACK
+        self.measured.setText(f"{MEASURED_WORDS[state.measured_kind]} {ghost}")
 
     def _show_live(self, on: bool) -> None:
         with QSignalBlocker(self.live):

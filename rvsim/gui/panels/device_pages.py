@@ -5,6 +5,7 @@ from __future__ import annotations
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.page_stack import Page
 from rvsim.gui.panels.device_drive import DrivePage
+from rvsim.gui.panels.device_measured import MeasuredPage
 from rvsim.gui.panels.device_virtual import VirtualPage
 from rvsim.gui.panels.device_wire import WirePage
 from rvsim.gui.preferences import Preferences
@@ -21,6 +22,7 @@ def device_pages(
     pages = (
         (DrivePage(*arguments), "Connect an arm, wake it, let it follow or run"),
         (WirePage(*arguments), "Every line that goes to the arm and comes back, in words"),
+        (MeasuredPage(*arguments), "What was wanted, sent and measured of the last motion on the arm"),
         (VirtualPage(*arguments, served), "Faults of the virtual arm, and other programs that drive one"),
     )
     return tuple(Page(page.name, page.title, tip, page) for page, tip in pages)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QVBoxLayout, QWidget
 
+from rvsim.device.driver.addresses import OTHER_VIRTUAL
 from rvsim.device.driver.ports import PortChoice, available_ports
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, form
@@ -77,7 +78,8 @@ class PortSection(QWidget):
     def scan(self) -> None:
         """List the ports that there are now; the one that was chosen stays if it is still there."""
         before = self.port.currentData()
-        self._choices = available_ports()
+        first, *others = available_ports()
+        self._choices = (first, *OTHER_VIRTUAL, *others)
         self.port.blockSignals(True)
         self.port.clear()
         for choice in self._choices:
