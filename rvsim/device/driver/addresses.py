@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
 from urllib.parse import parse_qsl, urlencode, urlsplit, urlunsplit
 
-from rvsim.device.driver.languages import LanguageName
 from rvsim.device.driver.ports import PortChoice
+
+if TYPE_CHECKING:
+    from rvsim.device.driver.languages import LanguageName
 
 SCHEME = "al5b"
 # Beside the plain one, which is mounted as its robot file says.

@@ -256,6 +256,8 @@ class DriverCore(Conversation):
     def _use_servos(self, action: actions.UseServos) -> Refusal | None:
         if self._moving or self._motion is not None:
             return _BUSY_MOVING
+        if len(action.servos) != self._robot.dof:
+            return Refusal(f"{len(action.servos)} servos for {self._robot.dof} joints.")
         try:
             robot = replace(self._robot, servos=tuple(action.servos), gripper_servo=action.gripper_servo)
             same = self._language.use(robot)
