@@ -32,7 +32,7 @@ class Offer:
     """A repair that works.
 
     Args:
-        name: stable: "free", "move", "scale", "move and scale", "ignore", "branch", "split", "ease", "longer".
+        name: stable: "free", "move", "scale", "move and scale", "ignore limits", "branch", "split", "ease", "longer".
         title: for the button.
         tip: what it does and what came of trying it.
         tracking: what came of trying it.
@@ -113,7 +113,7 @@ def _ignoring(kind: str, experiment: Experiment, report: Report) -> Offer | None
     if tried is None or tried.reached_count <= tracking.reached_count:
         return None
     tip = f"Go beyond the joint limits, as programs of the sources did; a real arm cannot. {_outcome(tried)}"
-    return Offer("ignore", "Ignore limits", tip, tried, beyond)
+    return Offer("ignore limits", "Ignore limits", tip, tried, beyond)
 
 
 # --- the time ----------------------------------------------------------------------------------------------------

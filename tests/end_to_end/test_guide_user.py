@@ -135,6 +135,7 @@ def test_the_sources_line_says_which_points_and_why(qtbot: QtBot, window: MainWi
     sentence = find(window, QLabel, "tracking_sentence").text()
     for word in ("4 of 11", "elbow", "−156.7°", "−110°", "wrist pitch"):
         assert word in sentence, sentence
+    qtbot.waitUntil(lambda: window.findChild(QAbstractButton, "repair_ignore_limits") is not None)
     press(qtbot, window, "repair_ignore_limits")
     assert window.session.tracking.complete
 

@@ -35,7 +35,7 @@ def offers(kind: str, experiment: Experiment) -> dict[str, Offer]:
 @pytest.mark.parametrize(
     ("name", "kind", "path", "names"),
     [
-        ("rv-m1", "line", "line", {"free", "move", "ignore"}),
+        ("rv-m1", "line", "line", {"free", "move", "ignore limits"}),
         ("ur5e", "trajectory", "ellipse", {"free", "move", "scale"}),
         ("rv-m1", "trajectory", "letter-raw", {"move and scale"}),
         ("ur5e", "trajectory", "ellipse-moved", {"branch"}),

@@ -82,10 +82,10 @@ def track_the_sources_line(panel: PathPanel) -> None:
 def test_missed_points_come_with_the_repairs_that_the_check_page_offers(panel: PathPanel, qtbot: QtBot) -> None:
     track_the_sources_line(panel)
     texts = {name: button.text() for name, button in repairs(panel, qtbot).items()}
-    assert set(texts) == {"free", "move", "ignore"}
+    assert set(texts) == {"free", "move", "ignore limits"}
     assert texts["free"] == "Free pitch"
     assert texts["move"].startswith("Move by (")
-    assert texts["ignore"] == "Ignore limits"
+    assert texts["ignore limits"] == "Ignore limits"
 
 
 def test_repairs_are_told_in_the_units_that_are_preferred_now(panel: PathPanel, preferences, qtbot: QtBot) -> None:
@@ -109,7 +109,7 @@ def test_the_result_is_said_in_the_preferred_units(panel: PathPanel, preferences
     assert session.sentences[-1][0] == sentence.text()
 
 
-@pytest.mark.parametrize(("name", "reached"), [("free", 6), ("ignore", 11), ("move", 11)])
+@pytest.mark.parametrize(("name", "reached"), [("free", 6), ("ignore limits", 11), ("move", 11)])
 def test_each_repair_of_the_sources_line_reaches_more_than_four_points(
     panel: PathPanel, name: str, reached: int, qtbot: QtBot
 ) -> None:
@@ -133,7 +133,7 @@ def test_a_letter_out_of_reach_is_moved_and_scaled_to_where_it_can_be_drawn(pane
 def test_limits_that_count_again_bring_back_what_is_reached_within_them(panel: PathPanel, qtbot: QtBot) -> None:
     session = panel.line._session
     track_the_sources_line(panel)
-    repairs(panel, qtbot)["ignore"].click()
+    repairs(panel, qtbot)["ignore limits"].click()
     assert session.tracking.complete
     session.edit("Respect limits", replace(session.experiment, ignore_limits=False))
     assert session.tracking.reached_count == 4
