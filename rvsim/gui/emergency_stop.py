@@ -11,7 +11,7 @@ from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.theme import set_role
 
 _KEYS = (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress)
-_MARGIN = 16
+_MARGIN = 10
 _TIP = "Stop whatever moves, at once (Esc). An arm that is connected stays stopped until the stop is reset"
 
 
@@ -24,7 +24,7 @@ class EmergencyStop(QObject):
         self._watching = False
         self.button = QToolButton()
         self.button.setObjectName("emergency_stop_button")
-        self.button.setText("● STOP  Esc")
+        self.button.setText("STOP Esc")
         self.button.setAccessibleName("Emergency stop")
         self.button.setToolTip(_TIP)
         set_role(self.button, role="stop")

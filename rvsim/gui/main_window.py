@@ -58,7 +58,7 @@ _TOOLBAR = ("home", "zero", "|", "undo", "redo", "|", "view_iso", "view_top", "v
             "show_plots", "dark")  # fmt: skip
 _TOOLBAR_TEXTS = {
     "home": "⌂ Home", "zero": "0 Zero", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": "Iso",
-    "look_stick": "Stick", "look_both": "Both", "dark": "◐ Dark",
+    "look_stick": "Stick", "look_both": "Both", "dark": "◐",
 }  # fmt: skip
 _TELL_MS = 250
 _STATE_VERSION = 3

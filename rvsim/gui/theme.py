@@ -80,9 +80,9 @@ QToolButton[role="page"]:checked {{ color: {text}; background: {raised}; border:
     font-weight: 600; }}
 QToolButton[role="page"]:focus {{ border: 1px solid {accent}; }}
 QToolButton[role="stop"] {{ background: #b42318; color: #ffffff; border: 1px solid #b42318; border-radius: 5px;
-    padding: 4px 12px; font-weight: 700; }}
+    padding: 4px 10px; font-weight: 700; }}
 QToolButton[role="stop"]:hover, QToolButton[role="stop"]:pressed {{ background: #8f1a12; }}
-QToolButton[role="stop"]:focus {{ border: 2px solid {text}; padding: 3px 11px; }}
+QToolButton[role="stop"]:focus {{ border: 2px solid {text}; padding: 3px 9px; }}
 QPushButton {{ background: {raised}; border: 1px solid {border}; border-radius: 5px; padding: 5px 8px; }}
 QPushButton:hover {{ border-color: {accent}; }}
 QPushButton:pressed, QPushButton:checked {{ background: {window}; border-color: {accent}; }}

@@ -121,6 +121,11 @@ class MeasuredPage(InspectPage):
         self._draw_curves()
         self.draw(_paths(robot, recording))
 
+    def set_seen(self, seen: bool) -> None:
+        """What has run meanwhile is shown."""
+        self._on_polled()
+        super().set_seen(seen)
+
     def _on_polled(self) -> None:
         """Another recording, or a longer one."""
         driver = self._device.driver
