@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QApplication, QSizePolicy, QToolBar, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QSizePolicy, QToolBar, QToolButton, QWidget
 
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.theme import set_role
 
 _KEYS = (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress)
-_MARGIN = 10
+_GROWS = (QEvent.Type.LayoutRequest, QEvent.Type.Polish, QEvent.Type.FontChange, QEvent.Type.Show)
+_MARGIN = 20
 _TIP = "Stop whatever moves, at once (Esc). An arm that is connected stays stopped until the stop is reset"
 
 
@@ -24,7 +25,7 @@ class EmergencyStop(QObject):
         self._watching = False
         self.button = QToolButton()
         self.button.setObjectName("emergency_stop_button")
-        self.button.setText("STOP Esc")
+        self.button.setText("● STOP  Esc")
         self.button.setAccessibleName("Emergency stop")
         self.button.setToolTip(_TIP)
         set_role(self.button, role="stop")
@@ -53,22 +54,7 @@ class EmergencyStop(QObject):
 
     def toolbar(self) -> QToolBar:
         """A bar at the right end of its row that is never shortened: it holds nothing but the button."""
-        bar = QToolBar("Stop")
-        bar.setObjectName("stop_toolbar")
-        bar.setMovable(False)
-        space = QWidget()
-        space.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-        bar.addWidget(space)
-        bar.addWidget(self.button)
-        bar.toggleViewAction().setEnabled(False)
-        bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
-        self._bar = bar
-        self.keep_room()
-        return bar
-
-    def keep_room(self) -> None:
-        """As wide as the button needs, in larger letters too."""
-        self._bar.setMinimumWidth(self.button.sizeHint().width() + _MARGIN)
+        return _StopBar(self.button)
 
     def _watch(self, on: bool) -> None:
         """Only while an arm is connected: every event of the window passes through the filter."""
@@ -80,3 +66,31 @@ class EmergencyStop(QObject):
             application.installEventFilter(self)
         else:
             application.removeEventFilter(self)
+
+
+class _StopBar(QToolBar):
+    """As wide as the button needs, whatever the style and the size of the letters."""
+
+    def __init__(self, button: QToolButton) -> None:
+        super().__init__("Stop")
+        self._button = button
+        self.setObjectName("stop_toolbar")
+        self.setMovable(False)
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+        self.toggleViewAction().setEnabled(False)
+        inside = QWidget()
+        row = QHBoxLayout(inside)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addStretch(1)
+        row.addWidget(button)
+        inside.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        self.addWidget(inside)
+
+    def event(self, event: QEvent) -> bool:
+        """Keep the room that the button needs when its letters or its style change."""
+        done = super().event(event)
+        if event.type() in _GROWS:
+            room = self._button.sizeHint().width() + _MARGIN
+            if room != self.minimumWidth():
+                self.setMinimumWidth(room)
+        return done

@@ -53,11 +53,11 @@ from rvsim.gui.widgets import ElidedLabel, column_of
 if TYPE_CHECKING:
     from rvsim.device.driver.state import DriverState
 
-_TOOLBAR = ("home", "zero", "|", "undo", "redo", "|", "view_iso", "view_top", "view_front", "view_side", "fit",
+_TOOLBAR = ("home", "|", "undo", "redo", "|", "view_iso", "view_top", "view_front", "view_side", "fit",
             "|", "look_stick", "look_solid", "look_both", "show_frames", "|",
             "show_plots", "dark")  # fmt: skip
 _TOOLBAR_TEXTS = {
-    "home": "⌂ Home", "zero": "0 Zero", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": "Iso",
+    "home": "⌂ Home", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": "Iso",
     "look_stick": "Stick", "look_both": "Both", "dark": "◐",
 }  # fmt: skip
 _TELL_MS = 250
@@ -289,7 +289,6 @@ class MainWindow(QMainWindow):
             self.plots.give_room()
         if name == "presentation":
             QTimer.singleShot(0, self, self._size_docks)
-            QTimer.singleShot(0, self, self.emergency_stop.keep_room)
 
     def _size_docks(self) -> None:
         """Room for the panels' texts, as large as they are."""

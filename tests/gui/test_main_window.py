@@ -251,6 +251,7 @@ def test_on_a_small_screen_every_control_around_the_scene_can_be_reached(qtbot: 
     assert bar.loop.geometry().right() <= bar.width()
     tools = window.findChild(QToolBar, "toolbar")
     assert tools.widgetForAction(window.actions_by_name["dark"]).isVisible()
+    assert window.emergency_stop.button.visibleRegion().boundingRect().size() == window.emergency_stop.button.size()
     tabs = next(bar for bar in window.findChildren(QTabBar) if bar.isVisible() and bar.count() > 1)
     assert all(
         tabs.tabRect(index).width() >= tabs.fontMetrics().horizontalAdvance(tabs.tabText(index))
