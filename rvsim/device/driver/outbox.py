@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 BITS = 10  # of a byte with its start and stop bit
-AHEAD = 0.02  # [s] so much may lie in the system's buffers: enough for an uneven thread, little enough for a stop
+AHEAD = 0.016  # [s] so much may lie in the system's buffers: enough for an uneven thread, little enough for a stop
 
 
 class Outbox:
