@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from rvsim.device.bridge.axes import places_of, values_of
 from rvsim.device.bridge.board import BridgeBoard
-from rvsim.device.bridge.frames import Problem
+from rvsim.device.bridge.frames import Frame, Problem, frame_bytes
 from rvsim.device.bridge.host_side import BridgeDecoder, BridgeEncoder, Heard
 from rvsim.device.bridge.messages import (
     Axes,
@@ -235,6 +235,24 @@ def test_arbitrary_bytes_never_raise_and_never_act(pieces: list[bytes]) -> None:
         desk.board.process(0.02)
     assert all(isinstance(heard, Error) for heard in desk.hear())
     np.testing.assert_array_equal(desk.board.pulses, before)
+
+
+FRAMES = st.builds(Frame, st.integers(0, 255), st.integers(0, 10) | st.integers(0x80, 0x86), st.binary(max_size=16))
+
+
+@given(
+    st.lists(FRAMES | st.builds(Frame, st.integers(0, 255), st.just(7), st.binary(min_size=5, max_size=5)), max_size=25)
+)
+def test_any_frame_is_answered_once_and_no_servo_leaves_its_range(frames: list[Frame]) -> None:
+    desk = Desk()
+    for frame in frames:
+        desk.board.write(frame_bytes(frame))
+        assert len(desk.hear()) == 1
+        desk.board.process(0.02)
+        desk.hear()
+        pulses = desk.board.pulses
+        for servo in ROBOT.servos:
+            assert np.isnan(pulses[servo.channel]) or servo.min_us <= pulses[servo.channel] <= servo.max_us
 
 
 @given(st.integers(0, 21), st.integers(0, 7))
