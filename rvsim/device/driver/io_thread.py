@@ -32,6 +32,7 @@ _logger = logging.getLogger(__name__)
 
 _TICK, _IDLE_TICK = 0.004, 0.02  # [s] between looks at the port: while the arm may move, and otherwise
 _WRITE_TIMEOUT = 0.2  # [s] pieces are so small that a port which does not take one in this time is stuck
+_LAST_WORDS = 0.1  # [s] STOP to six channels at 9600 baud takes 39 ms, and a port's buffer a little
 _CLOSING = 3.0  # [s] a close waits for the thread at most
 _MOST_READ = 4096  # bytes
 
@@ -254,13 +255,15 @@ class ArmDriver:
 
     def _leave(self) -> None:
         """Let a last stop out, then close."""
-        if self._write_urgent():
-            time.sleep(0.1)
+        with contextlib.suppress(serial.SerialException, OSError):  # it may be gone already
+            if self._write_urgent():
+                time.sleep(_LAST_WORDS)
         self._close_port()
 
     def _lose(self, sentence: str) -> None:
         with self._lock:
-            self._core.lose(sentence)
+            if self._core.wants_port:
+                self._core.lose(sentence)
             self._publish()
         self._close_port()
 

@@ -18,6 +18,7 @@ from rvsim.units import degrees_from_radians, millimetres_from_metres
 _STEP = 0.01  # [s] between samples; straight lines between them are within 0.01° at 400 °/s²
 _MOST = 120_000
 _ROUNDING = 1e-9
+_MORE = 1.02  # than a joint's speed: speeds are seen between samples
 # So far [rad, m] a trajectory may begin from where the arm is: it is passed in one set-point.
 _NEAR = 0.05
 
@@ -67,7 +68,7 @@ def plan_of(trajectory: Playable, robot: Robot, limits: FloatArray) -> Plan | Re
     if poses.shape != (len(times), robot.dof):
         joints = poses.shape[-1] if poses.ndim else 0
         return Refusal(f"The trajectory has {joints} joints, the arm has {robot.dof}.")
-    refusal = outside(robot, limits, poses, times)
+    refusal = outside(robot, limits, poses, times) or _too_quick(robot, poses, times)
     return refusal or Plan(times, poses)
 
 
@@ -83,6 +84,19 @@ def _sampled(trajectory: Playable, times: FloatArray) -> FloatArray:
     if poses.ndim == 2 and len(poses) == len(times):
         return poses
     return np.array([trajectory.q(float(time)) for time in times], dtype=np.float64)
+
+
+def _too_quick(robot: Robot, poses: FloatArray, times: FloatArray) -> Refusal | None:
+    """Why poses (k, n) are refused: a joint is known to be slower than that, or the trajectory jumps."""
+    most = np.array([math.inf if joint.max_speed is None else joint.max_speed.value for joint in robot.joints])
+    speeds = np.abs(np.diff(poses, axis=0)) / np.diff(times)[:, None]
+    beyond = np.argwhere(speeds > _MORE * most)
+    if not len(beyond):
+        return None
+    index, joint = beyond[0]
+    found, can = (shown(robot, joint, speed) for speed in (speeds[index, joint], most[joint]))
+    name = robot.joint_names[joint]
+    return Refusal(f"{name} would move at {found}/s{_when(times, index)}; it can do {can}/s. Give it more time.")
 
 
 def outside(robot: Robot, limits: FloatArray, poses: FloatArray, times: FloatArray | None = None) -> Refusal | None:

@@ -102,6 +102,16 @@ def test_nothing_moves_while_its_axis_sleeps(rig, action) -> None:
     assert arm.board.told == []
 
 
+class Hurried:
+    """A trajectory in a fiftieth of its time."""
+
+    def __init__(self, trajectory) -> None:
+        self.duration, self._trajectory = trajectory.duration / 50.0, trajectory
+
+    def q(self, t):
+        return self._trajectory.q(50.0 * np.asarray(t))
+
+
 def test_a_plan_beyond_a_limit_is_refused_with_joint_time_value_and_limit(rig) -> None:
     arm = rig().ready()
     beyond = joint_move(arm.robot, arm.home, arm.home + np.array([0.0, 0.0, -1.4, 0.0, 0.0]), seconds=4.0)
@@ -109,6 +119,8 @@ def test_a_plan_beyond_a_limit_is_refused_with_joint_time_value_and_limit(rig) -
     assert sentence.startswith("elbow would be at −161.")
     assert "after 2.97 s" in sentence
     assert "allow −161.0° to −44.9°" in sentence
+    hasty = joint_move(arm.robot, arm.home, arm.home + AWAY, seconds=4.0)
+    assert "it can do 210.0°/s" in arm.do(Run(Hurried(hasty))).sentence
     elsewhere = joint_move(arm.robot, arm.home + AWAY, arm.home, seconds=2.0)
     assert "Go to its start first" in arm.do(Run(elsewhere)).sentence
     assert arm.state.phase == "ready"
