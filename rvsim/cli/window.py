@@ -14,7 +14,7 @@ from rvsim.files import load_robot
 _PANELS = (
     "path", "check", "program", "compare", "inverse", "how", "lab",
     "jacobian", "velocity", "singular", "forces", "dynamics", "workspace", "source",
-    "tool", "matrices", "points", "dh",
+    "tool", "matrices", "points", "dh", "device", "wire", "calibrate", "measured", "virtual",
 )  # fmt: skip
 
 
@@ -28,7 +28,7 @@ def add_window_options(parser: argparse.ArgumentParser) -> None:
     window.add_argument("--theme", choices=("light", "dark"))
     window.add_argument("--screenshot", type=output_file, metavar="FILE.png", help="open, draw, save, leave")
     window.add_argument("--size", type=_size, metavar="1366x768", help="of the window")
-    window.add_argument("--state", default="home", metavar="home|line|PATH", help="what the screenshot shows")
+    window.add_argument("--state", default="home", metavar="home|line|arm|PATH", help="what the screenshot shows")
     window.add_argument("--panel", choices=_PANELS, default="path", help="the panel that the screenshot shows")
     window.add_argument("--look", choices=("solid", "stick", "both"), help="how the arm is drawn")
 

@@ -42,11 +42,13 @@ class DeviceControl(QObject):
         state_changed(state): a `DriverState`, or None when there is no device any more.
         polled(): some 30 times a second while there is a device: time to read its log or its recording.
         live_changed(on): whether the arm follows the window.
+        limits_changed(): a tracked path was dropped, for the limits of the servos count now, or do not any more.
     """
 
     state_changed = Signal(object)
     polled = Signal()
     live_changed = Signal(bool)
+    limits_changed = Signal()
 
     def __init__(
         self, session: Session, motion: MotionControl, preferences: Preferences, parent: QObject | None = None
@@ -279,15 +281,19 @@ class DeviceControl(QObject):
     def _narrow(self, narrowed: Robot) -> None:
         self._wide = self._session.robot.limits
         if not np.array_equal(self._wide, narrowed.limits):
-            experiment = self._session.experiment.with_robot(narrowed)
-            self._session.edit("Limits of arm and servos", experiment)
+            self._take_limits("Limits of arm and servos", narrowed)
 
     def _widen(self) -> None:
         wide, self._wide = self._wide, None
         robot = self._session.robot
         if wide is not None and len(wide) == robot.dof and not np.array_equal(wide, robot.limits):
-            experiment = self._session.experiment.with_robot(self._with_limits(robot, wide))
-            self._session.edit("Limits of the arm alone", experiment)
+            self._take_limits("Limits of the arm alone", self._with_limits(robot, wide))
+
+    def _take_limits(self, text: str, robot: Robot) -> None:
+        tracked = self._session.tracking is not None
+        self._session.edit(text, self._session.experiment.with_robot(robot))
+        if tracked:
+            self.limits_changed.emit()
 
     @staticmethod
     def _with_limits(robot: Robot, limits: FloatArray | None) -> Robot:
@@ -333,12 +339,21 @@ class DeviceControl(QObject):
     def _on_settled(self, before: Experiment, after: Experiment) -> None:
         if self._driver is None:
             return
-        if after.robot.servos != self._driver.robot.servos:
+        if not self._takes_wiring(after.robot):
             self._driver.stop("Another arm was taken.")
             self._wide = None
             self.disconnect_device()
         elif self._live and not self._showing and after.q is not before.q:
             self._tell(self._driver.stream(after.q))
+
+    def _takes_wiring(self, robot: Robot) -> bool:
+        """Whether the driver can go on with the arm that is shown: undo may bring back another calibration of it."""
+        assert self._driver is not None
+        driven = self._driver.robot
+        if (robot.servos, robot.gripper_servo) == (driven.servos, driven.gripper_servo):
+            return True
+        same_arm = original_name(robot) == original_name(driven) and robot.dof == driven.dof and bool(robot.servos)
+        return same_arm and self._tell(self._driver.use_servos(robot.servos, robot.gripper_servo))
 
 
 def _tells_more(before: DriverState, after: DriverState) -> bool:

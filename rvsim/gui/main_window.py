@@ -234,6 +234,7 @@ class MainWindow(QMainWindow):
         self.preferences.changed.connect(self._on_preference)
         self.scene_view.painted.connect(self._show_frame_time)
         self.device.state_changed.connect(self._show_device)
+        self.device.limits_changed.connect(self.tracker.track_again)
         self.commands.connect_all()
 
     # --- what is shown ---------------------------------------------------------------------------------------------

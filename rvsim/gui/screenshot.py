@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QTimer
 
-from rvsim.errors import RvsimError, UnknownNameError
+from rvsim.errors import DeviceError, RvsimError, UnknownNameError
 from rvsim.experiment import TrajectoryTask
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.picture import save_image
@@ -17,7 +18,9 @@ from rvsim.lab.lines import line_presets
 from rvsim.lab.named_paths import path_names
 
 _SIZE = (1366, 768)
-_STATES = ("home", "line", "line-source")
+_STATES = ("home", "line", "line-source", "arm")
+_VIRTUAL = "al5b://?potentiometers=1"
+_LONGEST_MS = 60_000
 
 
 def save_screenshot(window: MainWindow, options: argparse.Namespace) -> int:
@@ -42,6 +45,9 @@ def _set_up(window: MainWindow, state: str) -> None:
     if state == "home":
         return
     experiment = window.session.experiment
+    if state == "arm":
+        _run_on_virtual_arm(window)
+        return
     if state in ("line", "line-source"):
         presets = line_presets(window.session.robot)
         line = presets[-1 if state == "line-source" else 0].task()
@@ -57,6 +63,30 @@ def _set_up(window: MainWindow, state: str) -> None:
         _settle(20)
     window.motion.seek(0.8 * window.motion.player.duration)
     window.motion.pause()
+
+
+def _run_on_virtual_arm(window: MainWindow) -> None:
+    """Track the offered line, and let a virtual arm do it."""
+    device = window.device
+    window.tracker.track_line()
+    window.motion.pause()
+    device.connect_to(_VIRTUAL, baud=115200)
+    _wait(lambda: device.state is not None and device.state.phase == "asleep")
+    device.wake_all()
+    _wait(lambda: device.state is not None and device.state.gripper_awake and device.state.phase == "ready")
+    device.run_motion()
+    _wait(lambda: device.state is not None and device.state.phase == "running")
+    _wait(lambda: device.state is None or device.state.phase != "running")
+    _settle(1200)  # what is measured arrives after what was sent
+
+
+def _wait(holds: Callable[[], bool]) -> None:
+    """Let the window live until that holds."""
+    for _ in range(_LONGEST_MS // 20):
+        if holds():
+            return
+        _settle(20)
+    raise DeviceError(_VIRTUAL, "the virtual arm did not do what it was told", "Try again.")
 
 
 def _settle(milliseconds: int) -> None:

@@ -87,6 +87,7 @@ class PathTracker(QObject):
         self._session, self._motion = session, motion
         self.kind = "line"
         self.units = Units()  # what it says angles and lengths in
+        self._quiet = False  # whether the next result is shown without being played
         self._done: list[_Done] = []  # the last one is shown
         self._pending: tuple[str, Experiment] | None = None  # what the worker is at
         self._worker = LatestWorker(self)
@@ -115,6 +116,12 @@ class PathTracker(QObject):
             self._motion.play()
         else:
             self._track(self.kind, offer.title)
+
+    def track_again(self) -> None:
+        """The last path once more, for an arm with other limits; nothing is played."""
+        if self._done:
+            self._quiet = True
+            self._track(self.kind, self._done[-1].text)
 
     @property
     def busy(self) -> bool:
@@ -201,7 +208,9 @@ class PathTracker(QObject):
         sentence = tracking_sentence(done.tracking, self.units)
         self._session.say(sentence, "info" if done.tracking.complete else "warning")
         self.tracked.emit(done.kind)
-        self._motion.play()
+        quiet, self._quiet = self._quiet, False
+        if not quiet:
+            self._motion.play()
 
     def _show(self, done: _Done) -> None:
         self.kind = done.kind

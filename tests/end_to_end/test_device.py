@@ -68,6 +68,17 @@ def wake(qtbot: QtBot, window: MainWindow) -> None:
     wait(qtbot, window, lambda state: state.phase == "ready" and all(state.awake) and state.gripper_awake)
 
 
+def test_a_tracked_line_outlives_the_other_limits(qtbot: QtBot, window: MainWindow) -> None:
+    window.tracker.track_line()
+    window.motion.pause()
+    for _ in range(2):  # connect, disconnect
+        press(qtbot, window, "device_connect_button")
+        tracking = window.session.tracking
+        assert tracking is not None
+        assert tracking.robot is window.session.robot
+        assert window.motion.player.state == "stopped"
+
+
 def test_connecting_moves_nothing_and_brings_the_limits_of_the_servos(qtbot: QtBot, window: MainWindow) -> None:
     own = window.session.robot.limits
     connect(qtbot, window)
