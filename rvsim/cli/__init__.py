@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Sequence
 
 from rvsim import __version__
-from rvsim.cli import arm, arms, paths
+from rvsim.cli import arm, arms, paths, self_test
 from rvsim.cli.arguments import Parser, joined_values
 from rvsim.cli.outcome import BAD_INPUT, DONE, FAILED, InputError
 from rvsim.cli.output import speak_any_encoding
@@ -21,7 +21,7 @@ from rvsim.errors import RvsimError
 
 __all__ = ["BAD_INPUT", "DONE", "FAILED", "InputError", "main"]
 
-_COMMANDS = (*arms.COMMANDS, *paths.COMMANDS, *arm.COMMANDS)
+_COMMANDS = (*arms.COMMANDS, *paths.COMMANDS, *arm.COMMANDS, *self_test.COMMANDS)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
