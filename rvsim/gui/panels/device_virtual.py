@@ -52,9 +52,9 @@ class VirtualPage(InspectPage):
         )  # fmt: skip
         self._make_serving()
         self._lay_out()
-        device.state_changed.connect(self._on_device)
+        device.state_changed.connect(lambda _: self._on_device())
         served.changed.connect(self._refresh_if_seen)
-        self._had = False
+        self._shown: VirtualArm | None = None
 
     def _switch(self, fault: Fault) -> QCheckBox:
         box = QCheckBox(f"{fault.value[0].upper()}{fault.value[1:]}")
@@ -120,6 +120,7 @@ class VirtualPage(InspectPage):
     def refresh(self) -> None:
         """Show which faults are on, and whether an arm is served."""
         arm, robot = self._arm, self._session.robot
+        self._shown = arm
         self.about.setText(_IN_USE if arm else _NONE)
         for fault, box in self.faults.items():
             box.setEnabled(arm is not None)
@@ -151,10 +152,9 @@ class VirtualPage(InspectPage):
     def _line(self) -> str:
         return _LINE.format(address=self._served.address, baud=self.baud.currentData())
 
-    def _on_device(self, state: object) -> None:
+    def _on_device(self) -> None:
         """Each poll tells; what is shown here changes with the arm only."""
-        if (state is not None) != self._had:
-            self._had = state is not None
+        if self._arm is not self._shown:
             self._refresh_if_seen()
 
     def _on_fault(self, fault: Fault, on: bool) -> None:
