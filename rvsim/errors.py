@@ -11,6 +11,7 @@
     ├── TooManyPointsError     a path of so many points that nobody would wait for it
     ├── PathFileError          a file of points that cannot be read, with its row and column
     ├── ProgramFileError       a program that cannot be read, with its line and key
+    ├── SessionFileError       a session file that cannot be read, with the place in it
     ├── FileWriteError         a file that cannot be written, with its path and the reason
     ├── ExpressionError        a typed value that is no number
     ├── FormulaError           a typed formula of a path that cannot be worked out, with its stage and coordinate
@@ -132,6 +133,15 @@ class ProgramFileError(RvsimError, ValueError):
 
     def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
         self.path, self.where, self.found, self.expected = str(path), where, found, expected
+        super().__init__(f"{path}: {where}: found {found}, expected {expected}. {suggestion}".rstrip())
+
+
+class SessionFileError(RvsimError, ValueError):
+    """A session file that cannot be read, or a session that no file may hold; `where` is the place in the document."""
+
+    def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
+        self.path, self.where, self.suggestion = str(path), where, suggestion
+        self.found, self.expected = found, expected
         super().__init__(f"{path}: {where}: found {found}, expected {expected}. {suggestion}".rstrip())
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rvsim.experiment.load import NO_LOAD, Load
+from rvsim.experiment.notes import NO_NOTES, Notes
 from rvsim.experiment.program import Program
 from rvsim.experiment.shapes import Placement, Shape
 from rvsim.motion.trajectory import Law
@@ -82,7 +83,8 @@ class Experiment:
 
     `target` (4, 4) is the tool pose that was wanted where the arm could not follow; None is the tool's own. `law` and
     `path_seconds` say how paths are travelled: None is a calm pace, 0 as quick as the joints may; `ease` slows a path
-    down only where a joint needs it, not as a whole. `load` is what the tool pulls at and carries.
+    down only where a joint needs it, not as a whole. `load` is what the tool pulls at and carries. `typed` (n,) are
+    joint values that were typed but not drawn yet, None where there are none. `notes` are about all of it.
     """
 
     robot: Robot
@@ -97,15 +99,27 @@ class Experiment:
     program: Program = ()
     load: Load = NO_LOAD
     ease: bool = False
+    typed: FloatArray | None = None
+    notes: Notes = NO_NOTES
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "q", frozen_array("q", self.q, (self.robot.dof,)))
+        if self.typed is not None:
+            object.__setattr__(self, "typed", frozen_array("typed", self.typed, (self.robot.dof,)))
         if self.target is not None:
             object.__setattr__(self, "target", frozen_array("target", self.target, (4, 4)))
 
     def at(self, q: ArrayLike) -> Experiment:
         """In another pose. The pose is taken as it is: ask `limit_violations` first."""
-        return replace(self, q=np.asarray(q, dtype=np.float64))
+        return replace(self, q=np.asarray(q, dtype=np.float64), typed=None)
+
+    def with_typed(self, typed: ArrayLike | None) -> Experiment:
+        """With joint values that are to be drawn later."""
+        return replace(self, typed=None if typed is None else np.asarray(typed, dtype=np.float64))
+
+    def with_notes(self, notes: Notes) -> Experiment:
+        """With something else written beside it."""
+        return replace(self, notes=notes)
 
     def with_robot(self, robot: Robot) -> Experiment:
         """With an edited arm of the same joints; the pose stays."""
