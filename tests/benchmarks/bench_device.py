@@ -120,8 +120,10 @@ def _board(master: int, baud: int, pipe: Connection) -> None:
     while True:
         now = time.monotonic()
         board.process(now - before)
-        before, free = now, max(free, now - 0.002)
-        data = _read(master, int((now - free) / byte))
+        before, most = now, int((now - free) / byte)
+        data = _read(master, most)
+        if len(data) < most:  # the line was at rest, the bytes have just come
+            free = max(free, now - (len(data) + 1) * byte)
         for value in data:
             free += byte
             found.append((free, value))

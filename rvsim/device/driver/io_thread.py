@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import logging
+import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 _logger = logging.getLogger(__name__)
 
 _TICK, _IDLE_TICK = 0.004, 0.02  # [s] between looks at the port: while the arm may move, and otherwise
+_SWITCH = 0.001  # [s] so soon a busy window lets this thread in; the interpreter's own 5 ms are felt at each step
 _WRITE_TIMEOUT = 0.2  # [s] pieces are so small that a port which does not take one in this time is stuck
 _LAST_WORDS = 0.1  # [s] STOP to six channels at 9600 baud takes 39 ms, and a port's buffer a little
 _CLOSING = 3.0  # [s] a close waits for the thread at most
@@ -203,6 +205,14 @@ class ArmDriver:
     # --- the thread ----------------------------------------------------------------------------------------------
 
     def _live(self) -> None:
+        usual = sys.getswitchinterval()
+        sys.setswitchinterval(min(usual, _SWITCH))
+        try:
+            self._take_turns()
+        finally:
+            sys.setswitchinterval(usual)
+
+    def _take_turns(self) -> None:
         while not (self._closing and self._port is None):
             try:
                 self._turn()
