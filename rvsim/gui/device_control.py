@@ -162,7 +162,7 @@ class DeviceControl(QObject):
         before, self._state = self._state, state
         self._go_on(state)
         if before is None or _tells_more(before, state):
-            self._say_what_happened(state)
+            self._say_what_happened(before, state)
         self.state_changed.emit(state)
         self.polled.emit()
 
@@ -329,10 +329,12 @@ class DeviceControl(QObject):
             finally:
                 self._showing = False
 
-    def _say_what_happened(self, state: DriverState) -> None:
+    def _say_what_happened(self, before: DriverState | None, state: DriverState) -> None:
         if state.reason:
             level = "error" if state.phase in ("stopped", "lost") else "info"
             self._session.say(state.reason, level)
+        elif before is not None and (before.phase, state.phase) == ("running", "ready"):
+            self._session.say("The arm has done the motion. The Measured page compares what came back.")
         elif state.clamped:
             self._session.warn(f"Held at the limits of {', '.join(state.clamped)}: the arm does not go there.")
 

@@ -38,6 +38,9 @@ class Motion(NamedTuple):
     since: int
 
 
+_PAUSE = NANO // 10  # set-points that follow sooner than that [ns] are one move for the supply
+
+
 class VirtualArm:
     """An arm with its controller, whose port is `write` and `read`, and whose time is what `process` is told.
 
@@ -70,7 +73,8 @@ class VirtualArm:
         self._channels = list(self._bank.channels)
         self._clock, self._wire, self._faults = Clock(), Wire(), NO_FAULTS
         self._dark_until: int | None = None
-        self._board_time = self._quiet = self._moving = 0
+        self._board_time = self._quiet = 0
+        self._move_began = self._moved_last = -NANO
         self._next_frame = FRAME_NS
         self.board: Board = (
             BridgeBoard(robot, self.servos, self.gripper_servo, self._measured)
@@ -243,15 +247,20 @@ class VirtualArm:
 
     def _minds_supply(self, now: int, changed: bool) -> None:
         """A weak supply breaks down under a move."""
-        self._moving = self._moving + 1 if self.board.moving else 0
-        if changed and self._moving * FRAME >= DARK_AFTER and Fault.BROWN_OUT_IN_MOVE in self._faults:
+        if not (changed or self.board.moving):
+            return
+        if now - self._moved_last > _PAUSE:
+            self._move_began = now
+        self._moved_last = now
+        if changed and now - self._move_began >= DARK_AFTER * NANO and Fault.BROWN_OUT_IN_MOVE in self._faults:
             self._brown_out(now)
 
     def _brown_out(self, now: int) -> None:
         self._dark_until = now + round(DARKNESS * NANO)
         self._wire.clear()
         self.board.power_cycle()
-        self._quiet = self._moving = 0
+        self._quiet = 0
+        self._move_began = self._moved_last = -NANO
 
     def _run_board(self, now: int) -> None:
         """The board's time up to now; where a brown-out ends by then it starts again."""

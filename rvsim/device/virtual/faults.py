@@ -36,8 +36,8 @@ FAULT_WORDS: dict[Fault, str] = {
     Fault.STUCK_MOVING: "The board says for ever that a move is under way.",
     Fault.BROWN_OUT: "When switched on, the supply breaks down for 0.4 s: the board starts again and has forgotten "
     "all positions; servos go limp.",
-    Fault.BROWN_OUT_IN_MOVE: "Each move that has lasted 0.2 s breaks the supply down for 0.4 s: the board forgets all "
-    "positions, servos go limp.",
+    Fault.BROWN_OUT_IN_MOVE: "Each move, or row of set-points, that has lasted 0.2 s breaks the supply down for "
+    "0.4 s: the board forgets all positions, servos go limp.",
     Fault.STALLED_SERVO: "A servo is jammed: whatever its pulse, its joint stays where it is.",
     Fault.SAGGING_SERVO: "A servo is weak: its joint sags six times as far under its load.",
     Fault.SATURATED_BUFFER: "The board empties its buffer of 64 bytes at 250 bytes/s only: what does not fit is lost.",
