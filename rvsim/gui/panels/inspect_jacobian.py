@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QVBoxLayout, QWidget
 
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.panels.copying import CopyButton
@@ -24,6 +24,7 @@ from rvsim.gui.panels.inspect_jacobian_words import (
     table_columns,
     table_rows,
     units_line,
+    whole_equations,
 )
 from rvsim.gui.panels.inspect_page import InspectPage
 from rvsim.gui.panels.inspect_sources_button import SourcesButton
@@ -72,6 +73,10 @@ class JacobianPage(InspectPage):
         for label, part in ((self.rank, "rank"), (self.check, "check"), (self.column, "column"), (self.note, "note")):
             label.setObjectName(f"jacobian_{part}")
         self.equations = EquationsView(Typesetter(self))
+        self.whole = QCheckBox("Every column with its numbers")
+        self.whole.setObjectName("jacobian_whole")
+        self.whole.setToolTip("J's definition for this arm, the present values substituted")
+        self.whole.toggled.connect(lambda _: self._show_column())
         self.sources = SourcesButton("jacobian", self)
         self._lay_out()
 
@@ -87,7 +92,7 @@ class JacobianPage(InspectPage):
         for widget in above:
             column.addWidget(widget)
         column.addSpacing(8)
-        below: tuple[QWidget, ...] = (self.column, self.equations, self.note, self.sources)
+        below: tuple[QWidget, ...] = (self.whole, self.column, self.equations, self.note, self.sources)
         for widget in below:
             column.addWidget(widget)
         column.addStretch(1)
@@ -129,16 +134,19 @@ class JacobianPage(InspectPage):
 
     def _show_column(self) -> None:
         robot, q, joint = self._session.robot, self._session.q, self.table.jacobian.lit
-        lit = 0 <= joint < robot.dof
-        self.equations.setVisible(lit)
-        self.column.setVisible(lit)
+        lit, whole = 0 <= joint < robot.dof, self.whole.isChecked()
+        self.equations.setVisible(lit or whole)
+        self.column.setVisible(lit and not whole)
+        if whole:
+            self.equations.show_equations(whole_equations(robot, q, self.kind, self._J, self._preferences))
         if not lit:
             self.note.setText(_HINT)
             self.draw(())
             return
         self.column.setText(column_title(robot, joint))
         self.note.setText(column_note(robot, joint, self.kind, self._preferences))
-        self.equations.show_equations(column_equations(robot, q, joint, self.kind, self._J, self._preferences))
+        if not whole:
+            self.equations.show_equations(column_equations(robot, q, joint, self.kind, self._J, self._preferences))
         if self.seen:
             speed = speed_text(robot, q, joint, self._preferences)
             self.draw(column_items(robot, q, joint, speed, self._stage.palette))

@@ -160,6 +160,15 @@ def column_equations(
     return tuple(lines)
 
 
+def whole_equations(
+    robot: Robot, q: FloatArray, kind: Rows, J: FloatArray, preferences: Preferences
+) -> tuple[Equation, ...]:
+    """J's definition for this arm, column by column, each with the present numbers."""
+    columns = "\\ ".join(f"J_{{{joint + 1}}}" for joint in range(robot.dof))
+    each = (column_equations(robot, q, joint, kind, J, preferences) for joint in range(robot.dof))
+    return (Equation("J", f"[{columns}]", "", ""), *(line for lines in each for line in lines))
+
+
 def column_title(robot: Robot, joint: int) -> str:
     """Above the identity."""
     name = robot.joint_names[joint]

@@ -6,6 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QTableView
 
+from rvsim.files import load_robot
 from rvsim.gui.panels.inspect_jacobian import JacobianPage
 from rvsim.kinematics import jacobian
 from rvsim.kinematics.rates import analytic_jacobian, tool_jacobian
@@ -125,3 +126,18 @@ def test_a_notation_that_is_singular_says_so(page_of):
     assert "the notation is singular there, not the arm" in page.meaning.text()
     assert page.table.model().index(3, 0).data() == "–"
     assert page.check.text() == page.rank.text() == ""
+
+
+@pytest.mark.parametrize("name", ["rv-m1", "rrrp"])
+def test_the_whole_of_J_is_worked_out_on_request(page_of, name):
+    robot = load_robot(name)
+    page = page_of(name, robot.home)
+    assert not page.equations.isVisibleTo(page)
+    page.whole.click()
+    text = page.equations.text()
+    J = jacobian(robot, robot.home)
+    factor = 1e3 if robot.length_unit == "millimetre" else 1.0
+    turning = [i for i, joint in enumerate(robot.joints) if joint.revolute]
+    for joint in turning:
+        assert f"J{'₁₂₃₄₅₆'[joint]} = z" in text
+        assert f"{factor * np.abs(J[:3, joint]).max():.1f}".removesuffix(".0") in text
