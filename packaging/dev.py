@@ -13,6 +13,8 @@ USAGE = """usage: python3 packaging/dev.py COMMAND [arguments]
   test   run every check: ruff, mypy, and the tests without and with OpenGL; arguments are passed on to pytest
   bench  measure the speed of rvsim against other libraries; arguments name benchmarks, for instance: forward
   soak   run the long random tests; arguments name them, and options are passed on, for instance: --count 10000
+  bundle make programs that run without Python, for computers like this one, in dist; test them, weigh and time them
+  wheel  make a wheel and an sdist in dist, install each into a new environment, and test them there
 
 The first use makes .venv in this folder and installs everything there; nothing outside this folder is touched,
 except for system packages when you are root on Debian or Ubuntu."""

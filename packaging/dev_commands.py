@@ -1,4 +1,4 @@
-"""What `run`, `test`, `bench` and `soak` do, once an environment stands."""
+"""What the commands do, once an environment stands."""
 
 from __future__ import annotations
 
@@ -135,7 +135,28 @@ def test(arguments: list[str]) -> int:
     return dev_test.test(arguments)
 
 
-COMMANDS: dict[str, Callable[[list[str]], int]] = {"run": run, "test": test, "bench": bench, "soak": soak}
+def bundle(arguments: list[str]) -> int:
+    """A folder and a single file that run without Python."""
+    import dev_bundle
+
+    return dev_bundle.bundle(arguments)
+
+
+def wheel(arguments: list[str]) -> int:
+    """A wheel and an sdist."""
+    import dev_wheel
+
+    return dev_wheel.wheel(arguments)
+
+
+COMMANDS: dict[str, Callable[[list[str]], int]] = {
+    "run": run,
+    "test": test,
+    "bench": bench,
+    "soak": soak,
+    "bundle": bundle,
+    "wheel": wheel,
+}
 
 
 def start(command: str, arguments: list[str]) -> int:

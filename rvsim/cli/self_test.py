@@ -17,14 +17,16 @@ if TYPE_CHECKING:
 def _add_options(parser: argparse.ArgumentParser) -> None:
     # How the test starts itself once more for a screen, and how a bundle's start is timed.
     parser.add_argument("--report", type=Path, help=argparse.SUPPRESS)
-    parser.add_argument("--launched", type=float, default=0.0, help=argparse.SUPPRESS)
+    parser.add_argument("--launched", type=float, help=argparse.SUPPRESS)
 
 
 def _self_test(options: argparse.Namespace) -> int:
-    from rvsim.self_test import check_screen, self_test
+    from rvsim.self_test import check_screen, self_test, time_start
 
+    if options.report is not None and options.launched is not None:
+        return time_start(options.report, options.launched)
     if options.report is not None:
-        return check_screen(options.report, options.launched)
+        return check_screen(options.report)
     outcomes = self_test((lambda _: None) if options.json else _print_line)
     failed = sum(outcome.verdict == "FAILED" for outcome in outcomes)
     record = {"passed": failed == 0, "checks": [outcome._asdict() for outcome in outcomes]}

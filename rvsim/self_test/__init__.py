@@ -18,9 +18,9 @@ from pathlib import Path
 
 from rvsim.self_test.arithmetic import CHECKS
 from rvsim.self_test.outcome import Outcome, outcome_of
-from rvsim.self_test.screen import check_screen
+from rvsim.self_test.screen import check_screen, time_start
 
-__all__ = ["Outcome", "check_screen", "outcomes_on", "screens", "self_test"]
+__all__ = ["Outcome", "check_screen", "outcomes_on", "screens", "self_test", "time_start"]
 
 _PATIENCE = 120.0  # [s] a screen's checks may take on the slowest computer
 

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from rvsim.robot import Robot
 
 _ARM_PATIENCE = 10.0  # [s] for an arm on a wire to answer, or to arrive
-_NEAR = 0.02  # [rad] an arm on a wire has arrived
+_MOVED = 0.1  # [rad] as little as the base must turn
 _LEAST_ARMS = 11
-_FOLDERS = ("robots", "help", "icons", "fonts")
+_FOLDERS = ("robots", "help", "icons", "fonts", "licences")
 
 # Worked out with 40 digits, apart from this program: arm, joints [deg], place of its tool [m].
 _KNOWN_PLACES = (
@@ -42,9 +42,13 @@ def _parts() -> str:
     import PySide6
     import scipy
 
-    kind = "a bundle" if getattr(sys, "frozen", False) else "installed" if _in_wheel() else "a checkout"
+    kind = "a bundle" if _in_bundle() else "installed" if _in_wheel() else "a checkout"
     libraries = f"numpy {np.__version__}, scipy {scipy.__version__}, Qt for Python {PySide6.__version__}"
     return f"rvsim {__version__}, {kind}; Python {platform.python_version()}, {libraries}"
+
+
+def _in_bundle() -> bool:
+    return bool(getattr(sys, "frozen", False))
 
 
 def _in_wheel() -> bool:
@@ -57,6 +61,8 @@ def _resources() -> str:
 
     counts = {folder: _whole_files(folder) for folder in _FOLDERS}
     expect(text_strokes("rvsim", 0.01), "the pen's letters are missing")
+    third_party = resource("licences", "THIRD-PARTY.txt")
+    expect(not _in_bundle() or third_party.is_file(), "the bundle does not tell the licences of its parts")
     return ", ".join(f"{count} {folder}" for folder, count in counts.items())
 
 
@@ -210,22 +216,18 @@ def _device() -> str:
 
 
 def _drive(driver: Any) -> float:
-    """Connect, wake all joints, move the first, stop; how far it went [deg]."""
-    home = driver.robot.home
+    """Connect, wake the base, turn it, stop; how far it went [deg]. One joint, because each takes a second to wake."""
+    base = driver.robot.servos[0]
     driver.connect()
     _wait(driver, lambda state: state.phase == "asleep", "no arm answers")
-    for joint, value in enumerate(home):
-        driver.wake(joint, float(value))
-        _arrive(driver, joint, float(value))
-    driver.move_to(home + np.where(np.arange(len(home)) == 0, 0.2, 0.0), 0.3)
-    _arrive(driver, 0, home[0] + 0.2)
+    driver.wake(0, float(driver.robot.home[0]))
+    _wait(driver, lambda state: state.awake[0] and not state.busy, "it does not wake")
+    began = driver.state.commanded_q[0]
+    driver.jog_pulse(base.channel, 1600.0, 0.3)
+    _wait(driver, lambda state: not state.busy and abs(state.measured_q[0] - began) > _MOVED, "it does not move")
     driver.stop("The self-test is over.")
     _wait(driver, lambda state: state.phase == "stopped", "the stop does not stop it")
-    return float(degrees_from_radians(driver.state.measured_q[0] - home[0]))
-
-
-def _arrive(driver: Any, joint: int, value: float) -> None:
-    _wait(driver, lambda state: not state.busy and abs(state.measured_q[joint] - value) < _NEAR, "it does not arrive")
+    return abs(float(degrees_from_radians(driver.state.measured_q[0] - began)))
 
 
 def _wait(driver: Any, until: Callable[[Any], bool], otherwise: str) -> None:
