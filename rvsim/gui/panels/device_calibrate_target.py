@@ -1,0 +1,31 @@
+"""The pose of a step in the scene: a dashed arm with its name beside its hand."""
+
+from __future__ import annotations
+
+from rvsim.device.calibrate import Step
+from rvsim.device.calibration.words import number_words, pose_words
+from rvsim.kinematics import forward_kinematics
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.scene.ghosts import Ghost, ghost_items
+from rvsim.scene.palette import ScenePalette
+from rvsim.scene.primitives import Item, Label, Labels
+
+_SHORT = 32  # letters
+_SIZE = 15.0
+
+
+def target_items(robot: Robot, step: Step, palette: ScenePalette) -> tuple[Item, ...]:
+    """The arm as a step of a joint wants it; at an end the pose beyond which it is to go."""
+    assert step.joint is not None
+    name = pose_name(robot, step.joint, step.posture)
+    text = name if step.value is not None else f"on past: {name}"
+    place = forward_kinematics(robot, step.posture)[:3, 3]
+    label = Labels("calibrate.name", (Label(place, text, palette.text, (12.0, 14.0), _SIZE),))
+    return (*ghost_items(robot, [Ghost("calibrate", "", step.posture, False)], palette), label)
+
+
+def pose_name(robot: Robot, joint: int, q: FloatArray) -> str:
+    """A few words to stand beside the pose q (n,) [rad, m]: "upper arm stands straight up", "wrist at 60°"."""
+    words = pose_words(robot, joint, q).removeprefix("the ").partition(" (")[0].partition(", ")[0]
+    return words if len(words) <= _SHORT else f"{robot.joint_names[joint]} at {number_words(robot, joint, q[joint])}"
