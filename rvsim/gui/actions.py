@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
@@ -82,7 +83,10 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("stop", "&Path", "Stop", "Stop the motion where it is", "Esc"),
     ActionSpec("step_forward", "&Path", "Step forward", "A little later", "F7"),
     ActionSpec("step_back", "&Path", "Step back", "A little earlier", "F6"),
-    ActionSpec("quick_start", "&Help", "Quick start", "The first minute with rvsim", Key.HelpContents),
+    ActionSpec("help", "&Help", "Help on this panel", "What the panel you are in shows, and an example", "F1"),
+    ActionSpec("help_contents", "&Help", "Contents and search", "All pages of the help", "Shift+F1"),
+    ActionSpec("quick_start", "&Help", "Quick start", "The first minute with rvsim", "Ctrl+Shift+F1", before=True),
+    ActionSpec("tour", "&Help", "Tour", "One minute through the window", "Ctrl+F2"),
     ActionSpec("shortcuts", "&Help", "Keyboard shortcuts", "All of them", "Ctrl+/"),
     ActionSpec("about", "&Help", "About rvsim", "Version and diagnostics", "Ctrl+F1", before=True),
 )
@@ -119,6 +123,8 @@ def _action(window: QMainWindow, spec: ActionSpec) -> QAction:
     action.setCheckable(spec.checkable)
     action.setStatusTip(spec.tip)
     action.setShortcut(QKeySequence(spec.shortcut))
+    if spec.name == "help":  # in dialogs too
+        action.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)
     keys = action.shortcut().toString(_NATIVE)
     action.setToolTip(f"{spec.tip} ({keys})" if keys else spec.tip)
     return action

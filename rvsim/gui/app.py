@@ -86,6 +86,10 @@ def main(options: argparse.Namespace) -> int:
     if options.screenshot:
         return save_screenshot(window, options)
     _open(window)
+    if not preferences["tour_seen"]:
+        from rvsim.gui.tour import offer_tour  # once in a lifetime: other starts need not pay for it
+
+        offer_tour(window)
     return app.exec()
 
 

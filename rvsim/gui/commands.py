@@ -15,7 +15,6 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox
 from rvsim.errors import RvsimError
 from rvsim.files.atomic import write_atomically
 from rvsim.gui.actions import shortcut_table
-from rvsim.gui.diagnostics import diagnostics
 from rvsim.gui.panels.path_program import ProgramPage
 from rvsim.gui.panels.user_robot import ask_what_to_open, ask_where_to_save, opened, saved
 from rvsim.gui.picture import save_image
@@ -55,16 +54,6 @@ SWITCHES: dict[str, Switch] = {
     "animated": Switch("animated", True, False),
     "live": Switch("live", True, False),
 }
-
-_QUICK_START = """<h3>The first minute</h3>
-<p>Drag a slider on the left: the joint turns and the read-out in the panel <b>Model › Tool</b> follows.
-Type a value, or an expression such as <code>90/4</code>, <code>2*30</code> or <code>pi/4 rad</code>.</p>
-<p>Press <b>Track line</b>: the tool moves from start to end, and <b>Result</b> says how many points were reached,
-how exactly, and which joint stands in the way of the others.</p>
-<p>Choose a letter under <b>Trajectory</b> and press <b>Track trajectory</b>.
-Change the arm itself under <b>Model › DH table</b>: it follows at once, on a copy of your own.</p>
-<p>Switch <b>Plots</b> on: click or drag in a curve, and arm, path and time follow.</p>
-<p>In the scene: drag to turn, right-drag to move, wheel to zoom, double-click to centre.</p>"""
 
 
 class Commands(QObject):
@@ -134,7 +123,10 @@ class Commands(QObject):
             "stop": lambda: window.emergency_stop.stop("Esc was pressed."),
             "step_forward": lambda: motion.step(0.05),
             "step_back": lambda: motion.step(-0.05),
-            "quick_start": lambda: self._tell("Quick start", _QUICK_START),
+            "help": self.show_help,
+            "help_contents": lambda: self.show_help("index"),
+            "quick_start": lambda: self.show_help("quick-start"),
+            "tour": self.begin_tour,
             "shortcuts": self.show_shortcuts,
             "about": self.show_about,
         }
@@ -302,14 +294,23 @@ class Commands(QObject):
         )
         self._tell("Keyboard shortcuts", f"<table>{rows}</table>{extra}")
 
+    def show_help(self, page: str = "") -> None:
+        """A page of the help; "" for that of the panel in which the focus is."""
+        from rvsim.gui.help.show import show_help
+
+        show_help(self._window, page)
+
+    def begin_tour(self) -> None:
+        """One minute through the window."""
+        from rvsim.gui.tour import begin_tour
+
+        begin_tour(self._window)
+
     def show_about(self) -> None:
-        """Version, licence and what helps to help."""
-        renderer = self._window.scene_view.renderer.description
-        self._tell(
-            "About rvsim",
-            "<h3>rvsim</h3><p>See, move, compute and understand a robot arm.<br>"
-            f"MIT licence. Built with Qt (LGPL).</p><pre>{diagnostics(renderer)}</pre>",
-        )
+        """Versions, licences, and what helps to help."""
+        from rvsim.gui.about import AboutDialog
+
+        AboutDialog(self._window).open()
 
     def _tell(self, title: str, text: str) -> None:
         TextDialog(self._window, title, text).open()

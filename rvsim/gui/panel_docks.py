@@ -49,6 +49,11 @@ class PanelDocks:
         """Every dock, the left one first."""
         return [self.left, *self.right]
 
+    @property
+    def front(self) -> QDockWidget:
+        """Of the docks at the right the one that can be seen."""
+        return next((dock for dock in self.right if not dock.visibleRegion().isEmpty()), self.right[0])
+
     def make_menu(self) -> QMenu:
         """Keys that bring each panel to the front, its pages, and switches that hide it."""
         panels, hidden = QMenu("Panels", self._window), QMenu("Hide or show", self._window)

@@ -1,0 +1,120 @@
+"""The pages of resources/help: their titles and sections, and the search through all of them."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from typing import NamedTuple
+
+from rvsim.gui.formula import plain_text
+from rvsim.resources import resource
+
+INDEX = "index"
+_HEADING = re.compile(r"(#{1,6}) +(.+)")
+_INLINE_MATH = re.compile(r"\$([^$\n]+)\$")
+_LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
+_AROUND = 70  # signs that are shown on each side of what was found
+_WEIGHTS = (60, 25, 1)  # of a word in the page's title, in the section's, in its text
+
+
+class Section(NamedTuple):
+    """A heading with what stands below it, as plain text."""
+
+    page: str
+    title: str
+    slug: str
+    text: str
+
+
+class HelpPage(NamedTuple):
+    """A page: its name is that of its file without ".md"."""
+
+    name: str
+    title: str
+    source: str
+    sections: tuple[Section, ...]
+
+
+class Hit(NamedTuple):
+    """A section in which all words occur, with the text around the first of them."""
+
+    section: Section
+    page_title: str
+    excerpt: str
+
+
+@cache
+def help_pages() -> dict[str, HelpPage]:
+    """All pages by name."""
+    files = sorted(resource("help").glob("*.md"))
+    return {file.stem: _page(file.stem, file.read_text(encoding="utf-8")) for file in files}
+
+
+def _page(name: str, source: str) -> HelpPage:
+    sections = tuple(_sections(name, source))
+    return HelpPage(name, sections[0].title if sections else name, source, sections)
+
+
+def _sections(name: str, source: str) -> list[Section]:
+    found: list[tuple[str, list[str]]] = []
+    fenced = math = False
+    for line in source.splitlines():
+        if line.startswith("```"):
+            fenced, math = not fenced, line.startswith("```math")
+            continue
+        heading = None if fenced else _HEADING.fullmatch(line.strip())
+        if heading:
+            found.append((plain_line(heading[2]), []))
+        elif found:
+            found[-1][1].append(plain_text(line) if math else plain_line(line))
+    return [Section(name, title, slug_of(title), " ".join(" ".join(lines).split())) for title, lines in found]
+
+
+def plain_line(line: str) -> str:
+    """A line of Markdown without its marks."""
+    text = _INLINE_MATH.sub(lambda found: plain_text(found[1]), line)
+    text = _LINK.sub(r"\1", text)
+    text = re.sub(r"^\s*(\||[-*>]\s|\d+\.\s)", "", text)
+    return re.sub(r"\*\*|`|\\(?=[|*])", "", text).replace("|", " ").replace("---", "").strip()
+
+
+def slug_of(title: str) -> str:
+    """The anchor of a heading: its letters and digits, joined by hyphens."""
+    return "-".join(re.findall(r"\w+", title.lower()))
+
+
+def search(words: str) -> tuple[Hit, ...]:
+    """The sections in which every word occurs, also inside longer words; the best first."""
+    wanted = words.casefold().split()
+    if not wanted:
+        return ()
+    found = []
+    for page in help_pages().values():
+        for section in page.sections:
+            score = _score(page, section, wanted)
+            if score:
+                found.append((-score, page.title, section))
+    return tuple(Hit(section, title, _excerpt(section.text, wanted)) for _, title, section in sorted(found))
+
+
+def _score(page: HelpPage, section: Section, wanted: list[str]) -> int:
+    """0 when a word is missing; a word counts more in a title."""
+    texts = [text.casefold() for text in (page.title, section.title, section.text)]
+    total = 0
+    for word in wanted:
+        points = sum(weight * min(text.count(word), 5) for weight, text in zip(_WEIGHTS, texts, strict=True))
+        if not any(word in text for text in texts[1:]):
+            return 0
+        total += points
+    return total
+
+
+def _excerpt(text: str, wanted: list[str]) -> str:
+    low = text.casefold()
+    places = [low.find(word) for word in wanted if word in low]
+    if not places:
+        return text[: 2 * _AROUND] + ("…" if len(text) > 2 * _AROUND else "")
+    first, last = max(min(places) - _AROUND, 0), min(places) + _AROUND
+    first = text.find(" ", first) + 1 if first else 0
+    last = text.rfind(" ", first, last) if last < len(text) else len(text)
+    return ("… " if first else "") + text[first:last] + (" …" if last < len(text) else "")
