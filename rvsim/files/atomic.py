@@ -7,8 +7,10 @@ import secrets
 from pathlib import Path
 
 
-def write_atomically(path: Path, data: bytes) -> None:
+def write_atomically(path: Path, data: bytes, *, durable: bool = True) -> None:
     """Replace the file at `path` in one step; its folder must be there.
+
+    `durable` waits until the disk has it; without it a power cut, but no crash of the program, may undo it.
 
     Raises:
         OSError: the folder or the file cannot be written; the old file is then still there.
@@ -18,7 +20,8 @@ def write_atomically(path: Path, data: bytes) -> None:
         with open(draft, "xb") as file:
             file.write(data)
             file.flush()
-            os.fsync(file.fileno())
+            if durable:
+                os.fsync(file.fileno())
         os.replace(draft, path)
     except BaseException:
         draft.unlink(missing_ok=True)

@@ -243,7 +243,7 @@ class Table:
 
     def _refuse_unknown(self, table: dict[str, Any], place: Place) -> None:
         names = [key.name for key in self.keys]
-        for name in table:
+        for name in () if place.newer else table:
             if name not in names:
                 here = place.at(f"key {name[:100]!r}")
                 here.refuse("an unknown key", "one of the known keys", did_you_mean(name[:100], names))

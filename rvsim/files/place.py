@@ -61,13 +61,17 @@ _FILE_UNITS = Units()
 
 @dataclass(frozen=True)
 class Place:
-    """A place in a file: the steps from its top, the units that hold there, a hint for who errs there, and the text."""
+    """A place in a file: the steps from its top, the units that hold there, a hint for who errs there, and the text.
+
+    `newer`: a younger rvsim wrote it, and keys that are unknown here are passed over.
+    """
 
     path: str
     steps: tuple[str, ...] = ()
     units: Units = _FILE_UNITS
     hint: str = ""
     text: str = ""
+    newer: bool = False
 
     def at(self, step: str, hint: str = "") -> Place:
         """One step deeper."""
@@ -90,6 +94,8 @@ class Place:
 
 def shown(value: object) -> str:
     """A value of a file in a few words."""
+    if value is None:
+        return "null"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, int | float):

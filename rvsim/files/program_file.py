@@ -10,8 +10,8 @@ from typing import Any
 from rvsim.errors import ProgramFileError, RobotFileError, did_you_mean
 from rvsim.experiment.program import MOVE_KINDS, Move, Program, kind_of
 from rvsim.files.atomic import write_atomically
-from rvsim.files.kinds import Choice, Items, Key, Number, Numbers, Table, Text
-from rvsim.files.place import Place, Units, shown
+from rvsim.files.kinds import Choice, Items, Key, Number, Numbers, Table, Text, number_text
+from rvsim.files.place import Place, Unit, Units, shown
 from rvsim.files.toml_source import read_bytes, tables_of, text_of
 from rvsim.motion.moves import DEFAULT_SPEED, JointMove
 from rvsim.robot import Robot
@@ -27,6 +27,8 @@ _POINT = Numbers(("x", "y", "z"), Number("length", -1e6, 1e6))
 _ANGLES = Numbers(("roll", "pitch", "yaw"), Number("joint", -36_000.0, 36_000.0))
 _NO_TURN = (0.0, 0.0, 0.0)
 
+_PERCENT = Unit("percent", lambda percent: percent / 100.0, lambda share: 100.0 * share)
+
 
 @dataclass(frozen=True)
 class _Share:
@@ -40,7 +42,8 @@ class _Share:
 
     def write(self, value: float, units: Units) -> str:
         """The percentage."""
-        return Number("plain").write(round(100.0 * value, 9), units)
+        del units
+        return number_text(value, _PERCENT)
 
 
 @dataclass(frozen=True)
@@ -137,6 +140,11 @@ def program_text(program: Program, robot: Robot) -> str:
     return _PREAMBLE.format(length=robot.length_unit) + "\n".join(lines) + "\n"
 
 
+def moves_kind(robot: Robot) -> Items:
+    """The list of an arm's moves, as it stands under "move" in a file."""
+    return Items("move", _AnyMove(robot), 0, _MOST_MOVES)
+
+
 def program_of(text: str, robot: Robot, path: str | Path) -> Program:
     """The program that the text of a file means for an arm; `path` is for messages.
 
@@ -171,7 +179,7 @@ def _read(tables: dict[str, Any], robot: Robot, place: Place) -> Program:
         keys=(
             Key("version", Number("plain", 1, 1e6)),
             Key("robot", Text(), ""),
-            Key("move", Items("move", _AnyMove(robot), 0, _MOST_MOVES), ()),
+            Key("move", moves_kind(robot), ()),
         ),
         build=_newer_refused,
         parts=lambda value: value,

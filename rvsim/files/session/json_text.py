@@ -1,0 +1,131 @@
+"""The text of a session file: JSON with one value a line, and strict reading that ends in a value or a clear error."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from rvsim.errors import SessionFileError
+
+LARGEST = 16 * 1024 * 1024  # [bytes]
+_MOST_LISTS, _MOST_VALUES = 200_000, 2_000_000
+_LINE = 110
+_SPEAKS = "A session file of rvsim is JSON text in UTF-8."
+
+
+# --- writing -------------------------------------------------------------------------------------------------------
+
+
+def json_text(value: Any) -> str:
+    """The document as text: keys in their order, numbers exact, items of a list on one line where they fit."""
+    text = "\n".join(_lines(value, "", is_item=False)) + "\n"
+    # Half a character, as a paste may bring it, is no text that can be stored.
+    return text.encode("utf-8", "replace").decode("utf-8")
+
+
+def _lines(value: Any, indent: str, *, is_item: bool) -> Iterator[str]:
+    compact = json.dumps(value, ensure_ascii=False)
+    if not value or not isinstance(value, dict | list) or (_is_flat(value, is_item) and len(compact) <= _LINE):
+        yield compact
+        return
+    is_table = isinstance(value, dict)
+    inner, (opening, closing) = indent + "  ", "{}" if is_table else "[]"
+    yield opening
+    parts = _labelled(value)
+    for number, (label, part) in enumerate(parts, 1):
+        first, *rest = _lines(part, inner, is_item=not is_table)
+        comma = "," if number < len(parts) else ""
+        lines = [f"{inner}{label}{first}", *rest]
+        yield from (*lines[:-1], lines[-1] + comma)
+    yield indent + closing
+
+
+def _labelled(value: dict[str, Any] | list[Any]) -> list[tuple[str, Any]]:
+    if isinstance(value, dict):
+        return [(f"{json.dumps(key, ensure_ascii=False)}: ", part) for key, part in value.items()]
+    return [("", part) for part in value]
+
+
+def _is_flat(value: dict[str, Any] | list[Any], is_item: bool) -> bool:
+    """Whether it may stand on one line: numbers, and items of a list that hold nothing but numbers and words."""
+    if isinstance(value, list):
+        return not any(isinstance(part, dict | list | str) for part in value)
+    return is_item and all(not isinstance(part, dict) and _is_plain(part) for part in value.values())
+
+
+def _is_plain(part: Any) -> bool:
+    return not isinstance(part, list) or not any(isinstance(item, dict | list) for item in part)
+
+
+# --- reading -------------------------------------------------------------------------------------------------------
+
+
+def json_value(data: bytes, path: object) -> Any:
+    """What the bytes mean; `path` is for the message.
+
+    Raises:
+        SessionFileError: they are too many, no UTF-8, no JSON, or JSON with a key twice or half a character.
+    """
+    text = _text(data, path)
+    try:
+        value = json.loads(text, object_pairs_hook=_without_doubles, parse_constant=_refuse_constant)
+    except RecursionError:
+        raise SessionFileError(path, "the file", "lists nested too deeply", "a session") from None
+    except json.JSONDecodeError as problem:
+        where = f"line {problem.lineno}, column {problem.colno}"
+        raise SessionFileError(path, where, f"a mistake ({problem.msg})", "JSON", _SPEAKS) from None
+    except ValueError as problem:  # of ours, or Python's refusal of an integer of thousands of digits
+        found = str(problem) if isinstance(problem, _MistakeError) else "an integer of thousands of digits"
+        raise SessionFileError(path, "the file", found, "JSON with plain numbers and each key once") from None
+    _refuse_half_characters(text, value, path)
+    return value
+
+
+class _MistakeError(ValueError):
+    """What JSON's own reader would let pass."""
+
+
+def _text(data: bytes, path: object) -> str:
+    if len(data) > LARGEST:
+        found = "a large file"
+        raise SessionFileError(path, "the file", found, f"at most {LARGEST // 1024 // 1024} MB")
+    if data.count(b"[") + data.count(b"{") > _MOST_LISTS or data.count(b",") > _MOST_VALUES:
+        raise SessionFileError(path, "the file", "hundreds of thousands of lists", "a session")
+    try:
+        return data.decode("utf-8-sig")  # some editors put a mark before the first letter
+    except UnicodeDecodeError as problem:
+        line = data.count(b"\n", 0, problem.start) + 1
+        found = f"the byte 0x{data[problem.start]:02x}"
+        raise SessionFileError(path, f"line {line}", found, "UTF-8 text", _SPEAKS) from None
+
+
+def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    table = dict(pairs)
+    if len(table) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise _MistakeError(f"the key {twice[:60]!r} twice")
+    return table
+
+
+def _refuse_constant(name: str) -> float:
+    raise _MistakeError(f"the number {name}")
+
+
+def _refuse_half_characters(text: str, value: Any, path: object) -> None:
+    if "\\ud" not in text.lower():
+        return
+    try:
+        json.dumps(value, ensure_ascii=False).encode("utf-8")
+    except UnicodeEncodeError:
+        raise SessionFileError(path, "the file", "half of a character (\\ud800 to \\udfff)", "whole ones") from None
+
+
+def finite(value: int | float) -> float:
+    """The number as a float; infinite where it is too large for one."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
