@@ -21,6 +21,11 @@ def device_pages(
     """Every page is told when it is seen; those that need a connected arm first are made when they are."""
     arguments = (session, preferences, stage, device)
 
+    def calibrate() -> QWidget:
+        from rvsim.gui.panels.device_calibrate import CalibratePage
+
+        return CalibratePage(*arguments)
+
     def measured() -> QWidget:
         from rvsim.gui.panels.device_measured import MeasuredPage
 
@@ -34,6 +39,10 @@ def device_pages(
     return (
         Page("device", "Drive", "Connect an arm, wake it, let it follow or run", DrivePage(*arguments)),
         Page("wire", "Wire", "Every line that goes to the arm and comes back, in words", WirePage(*arguments)),
+        Page(
+            "calibrate", "Calibrate", "Find out channel, direction and pulses of each servo, step by step",
+            LatePage(calibrate),
+        ),
         Page(
             "measured", "Measured", "What was wanted, sent and measured of the last motion on the arm",
             LatePage(measured),
