@@ -37,6 +37,21 @@ class Typeset(NamedTuple):
     descent: float
 
 
+class Letter(NamedTuple):
+    """One sign of a formula: its outline, which all signs of its kind share, and where it stands."""
+
+    outline: QPainterPath
+    at: QTransform
+
+
+class Pieces(NamedTuple):
+    """A formula in pieces, for who draws each letter's outline once: letters, bars, and its box as in `Typeset`."""
+
+    letters: tuple[Letter, ...]
+    rules: tuple[QRectF, ...]
+    box: QRectF
+
+
 class _Glyph(NamedTuple):
     """One sign of a layout: its outline, where it stands, and the index of the place it fills (−1: none)."""
 
@@ -55,6 +70,13 @@ def typeset(latex: str) -> Typeset | None:
     """A formula at a font size of 16 px, or None if it cannot be set; the result is remembered."""
     shape, signs = _shape(latex)
     return _filled(shape, signs)
+
+
+def pieces(latex: str) -> Pieces | None:
+    """The same formula in pieces, or None if it cannot be set."""
+    shape, signs = _shape(latex)
+    layout = _layout(shape)
+    return None if layout is None else Pieces(tuple(_letters(layout, signs)), layout.rules, layout.box)
 
 
 def is_set(latex: str) -> bool:
@@ -117,15 +139,22 @@ def _filled(shape: str, signs: str) -> Typeset | None:
         return None
     path = QPainterPath()
     path.setFillRule(Qt.FillRule.WindingFill)
-    for outline, at, place in layout.glyphs:
-        sign = signs[place] if place >= 0 else ""
-        if sign != " ":
-            glyph = at.map(_outline(sign) if sign.isdigit() else outline)
-            path.addPath(glyph.translated(_gap(signs, place), 0.0) if sign == "-" else glyph)
+    for letter in _letters(layout, signs):
+        path.addPath(letter.at.map(letter.outline))
     for rule in layout.rules:
         path.addRect(rule)
     box = layout.box
     return Typeset(path, box.right(), -box.top(), box.bottom())
+
+
+def _letters(layout: _Layout, signs: str) -> Iterator[Letter]:
+    """Every sign that is seen: those of the places put in, a minus close to its number."""
+    for outline, at, place in layout.glyphs:
+        sign = signs[place] if place >= 0 else ""
+        if sign == "-":
+            yield Letter(outline, at * QTransform.fromTranslate(_gap(signs, place), 0.0))
+        elif sign != " ":
+            yield Letter(_outline(sign) if sign.isdigit() else outline, at)
 
 
 def _gap(signs: str, place: int) -> float:

@@ -1,0 +1,120 @@
+"""The report as a PDF: A4, a title block, headers and footers with page numbers; letters and formulas stay outlines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from PySide6.QtCore import QMarginsF, QPointF
+from PySide6.QtGui import QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
+
+from rvsim.errors import FileWriteError
+from rvsim.gui.report import typography as faces
+from rvsim.gui.report.pages import Page, paginated
+from rvsim.gui.report.strips import Strip, section_strips, text_strips
+from rvsim.gui.report.typography import MUTED, RULE, Text, text_width
+from rvsim.lab.report.values import Cover, Document
+
+PAGE = (595.0, 842.0)  # A4 [pt]
+MARGIN = (71.0, 74.0, 71.0, 70.0)  # left, top, right, bottom
+WIDTH = PAGE[0] - MARGIN[0] - MARGIN[2]
+HEIGHT = PAGE[1] - MARGIN[1] - MARGIN[3]
+_RESOLUTION = 600
+_TITLE_RAISED = 14.0  # the title begins above the margin: there is no header over it
+
+
+class Sheets:
+    """A document on its pages, which are painted one at a time on anything that is measured in points."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.pages: tuple[Page, ...] = ()
+
+    def lay_out(self) -> Iterator[None]:
+        """Set it section by section; then `pages` is there."""
+        strips = list(_title_strips(self.document.cover))
+        for section in self.document.sections:
+            for strip in section_strips(section, WIDTH):
+                strips.append(strip)
+                yield
+        self.pages = paginated(strips, HEIGHT, -_TITLE_RAISED)
+
+    def paint(self, painter: QPainter, number: int) -> None:
+        """One page, from 0; the painter's unit is a point."""
+        for y, strip in self.pages[number]:
+            strip.draw(painter, MARGIN[0], MARGIN[1] + y)
+        if number:
+            self._header(painter)
+        self._footer(painter, number)
+
+    def _header(self, painter: QPainter) -> None:
+        cover, y = self.document.cover, MARGIN[1] - 34.0
+        author = Text(cover.author, faces.SMALL, 0.4 * WIDTH)
+        room = WIDTH - author.width - 20.0
+        title = Text(_shortened(cover.title, room), faces.SMALL, WIDTH)
+        title.draw(painter, MARGIN[0], y)
+        author.draw(painter, MARGIN[0] + WIDTH - author.width, y)
+        painter.setPen(QPen(MUTED, 0.4))
+        painter.drawLine(QPointF(MARGIN[0], y + 14.0), QPointF(MARGIN[0] + WIDTH, y + 14.0))
+
+    def _footer(self, painter: QPainter, number: int) -> None:
+        y = PAGE[1] - MARGIN[3] + 26.0
+        page = Text(f"Page {number + 1} of {len(self.pages)}", faces.SMALL, 100.0)
+        page.draw(painter, MARGIN[0] + WIDTH - page.width, y)
+        Text(self.document.cover.date, faces.SMALL, 0.5 * WIDTH).draw(painter, MARGIN[0], y)
+
+
+def _shortened(text: str, width: float) -> str:
+    if text_width(text, faces.SMALL) <= width:
+        return text
+    while text and text_width(f"{text}…", faces.SMALL) > width:
+        text = text[:-1]
+    return f"{text.rstrip()}…"
+
+
+def _title_strips(cover: Cover) -> Iterator[Strip]:
+    yield from text_strips("LABORATORY REPORT", faces.SMALL, WIDTH, above=0.0)
+    yield from text_strips(cover.title, faces.TITLE, WIDTH, above=3.0)
+    who = " · ".join(text for text in (cover.author, cover.date) if text)
+    if who:
+        yield from text_strips(who, faces.LEAD._replace(sans=True, size=10.5, color=MUTED), WIDTH, above=4.0)
+    yield Strip(1.2, _title_rule, 9.0)
+    for line in cover.notes.splitlines():
+        if line.strip():
+            yield from text_strips(line.strip(), faces.BODY, WIDTH, above=6.0, justified=True)
+
+
+def _title_rule(painter: QPainter, x: float, y: float) -> None:
+    painter.setPen(QPen(RULE, 1.2))
+    painter.drawLine(QPointF(x, y), QPointF(x + WIDTH, y))
+
+
+def write_pdf(sheets: Sheets, path: Path) -> Iterator[None]:
+    """Paint the pages into a file, one at a time.
+
+    Raises:
+        FileWriteError: the file cannot be written.
+    """
+    writer = QPdfWriter(str(path))
+    cover = sheets.document.cover
+    writer.setTitle(cover.title)
+    writer.setAuthor(cover.author)
+    writer.setCreator("rvsim")
+    writer.setResolution(_RESOLUTION)
+    writer.setPageLayout(
+        QPageLayout(QPageSize(QPageSize.PageSizeId.A4), QPageLayout.Orientation.Portrait, QMarginsF(0, 0, 0, 0))
+    )
+    painter = QPainter()
+    if not painter.begin(writer):
+        raise FileWriteError(path, "the file cannot be opened for writing")
+    try:
+        for number in range(len(sheets.pages)):
+            if number and not writer.newPage():
+                raise FileWriteError(path, "the disk may be full")
+            painter.save()
+            painter.scale(_RESOLUTION / 72.0, _RESOLUTION / 72.0)
+            sheets.paint(painter, number)
+            painter.restore()
+            yield
+    finally:
+        painter.end()

@@ -1,0 +1,266 @@
+"""A document as strips of paper that are not cut: lines, rows, formulas, pictures, with what holds them together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from PySide6.QtCore import QByteArray, QPointF, QRectF
+from PySide6.QtGui import QPainter, QPen
+from PySide6.QtSvg import QSvgRenderer
+
+from rvsim.gui.formula import Typeset, plain_text, typeset
+from rvsim.gui.renderers.painter import scene_image
+from rvsim.gui.report import typography as faces
+from rvsim.gui.report.typography import ACCENT, INK, Face, Text
+from rvsim.lab.report.chart import Chart
+from rvsim.lab.report.chart_svg import chart_height, chart_svg
+from rvsim.lab.report.values import (
+    Block,
+    Figure,
+    Formula,
+    Formulas,
+    Items,
+    Paragraph,
+    Run,
+    ScenePicture,
+    Section,
+    Subheading,
+    Words,
+    runs,
+)
+
+FORMULA_SIZE = 10.5
+_SET_AT = 16.0  # what formulas are set at
+_INDENT, _LABEL, _GAP, _APART = 20.0, 44.0, 9.0, 28.0
+_PICTURE_SHARE = 0.82  # of the width
+_PICTURE_SHARPER = 2.2
+_FACES = {"body": faces.BODY, "note": faces.NOTE, "lead": faces.LEAD, "own": faces.BODY}
+
+_LED_TO = (Formula, Formulas, Items)  # what the paragraph before speaks of
+
+Draw = Callable[[QPainter, float, float], None]
+
+
+class Strip(NamedTuple):
+    """A piece of the page.
+
+    Args:
+        height: [pt].
+        draw: paints it with its upper left corner at x, y.
+        above: the space above it, which the top of a page swallows.
+        keep: not parted from the next one.
+        again: what is repeated above it where a page begins with it.
+    """
+
+    height: float
+    draw: Draw
+    above: float = 0.0
+    keep: bool = False
+    again: tuple[Strip, ...] = ()
+
+
+def section_strips(section: Section, width: float) -> Iterator[Strip]:
+    """The title of a section, then all its blocks."""
+    words = (Run(f"{section.number}  "), Run(section.title))
+    title = Text(words, faces.SECTION, width)
+    yield Strip(title.height, _section_title(section, title), 26.0, keep=True)
+    for block, following in zip(section.blocks, (*section.blocks[1:], None), strict=True):
+        strips = list(block_strips(block, width))
+        if isinstance(block, Paragraph) and isinstance(following, _LED_TO):
+            strips[-1] = strips[-1]._replace(keep=True)
+        yield from strips
+
+
+def _section_title(section: Section, title: Text) -> Draw:
+    number = Text(section.number, faces.SECTION._replace(color=ACCENT), 60.0)
+
+    def draw(painter: QPainter, x: float, y: float) -> None:
+        title.draw(painter, x, y)
+        number.draw(painter, x, y)
+
+    return draw
+
+
+def block_strips(block: Block, width: float) -> Iterator[Strip]:
+    """The strips of one block."""
+    from rvsim.gui.report.table_strips import table_strips  # it is made of strips itself
+
+    match block:
+        case Paragraph():
+            yield from text_strips(block.words, _FACES[block.role], width, above=5.0, justified=block.role != "note")
+        case Subheading():
+            title = Text(block.words, faces.SUBHEAD, width)
+            yield Strip(title.height, title.draw, 14.0, keep=True)
+        case Items():
+            yield from _items(block, width)
+        case Formula():
+            yield from _formula(block, width)
+        case Formulas():
+            yield from _formulas(block, width)
+        case Figure():
+            yield from _figure(block, width)
+        case _:
+            yield from table_strips(block, width)
+
+
+def text_strips(
+    words: Words, face: Face, width: float, *, above: float, justified: bool = False, indent: float = 0.0
+) -> Iterator[Strip]:
+    """One strip a line; the first two stay together, and the last two."""
+    text = Text(words, face, width - indent, justified=justified)
+    for number in range(text.count):
+        keep = text.count > 1 and number in (0, text.count - 2)
+        yield Strip(text.leading, _line(text, number, indent), above if number == 0 else 0.0, keep)
+
+
+def _line(text: Text, number: int, indent: float) -> Draw:
+    return lambda painter, x, y: text.draw(painter, x + indent, y, number, number + 1)
+
+
+def _items(block: Items, width: float) -> Iterator[Strip]:
+    marks = block.marks or (Run("•"),) * len(block.items)
+    indent = 15.0
+    for mark, item in zip(marks, block.items, strict=True):
+        sign = Text(mark, faces.BODY, indent)
+        for number, strip in enumerate(text_strips(item, faces.BODY, width, above=3.0, indent=indent)):
+            yield strip if number else strip._replace(draw=_both(sign, strip.draw))
+
+
+def _both(sign: Text, rest: Draw) -> Draw:
+    def draw(painter: QPainter, x: float, y: float) -> None:
+        sign.draw(painter, x + 3.0, y)
+        rest(painter, x, y)
+
+    return draw
+
+
+# --- formulas ------------------------------------------------------------------------------------------------------
+
+
+class Set(NamedTuple):
+    """A formula in its size: how wide, how high above and below its baseline [pt], and what paints it there."""
+
+    width: float
+    ascent: float
+    descent: float
+    draw: Draw
+
+
+def set_formula(latex: str, size: float, most: float) -> Set:
+    """A formula no wider than `most`: smaller if it has to be; as text where it cannot be set."""
+    found = typeset(latex)
+    if found is None:
+        text = Text(plain_text(latex), faces.BODY, most)
+        return Set(text.width, 0.75 * text.leading, 0.25 * text.leading,
+                   lambda painter, x, y: text.draw(painter, x, y - 0.75 * text.leading))  # fmt: skip
+    scale = min(size / _SET_AT, most / max(found.width, 1.0))
+    return Set(found.width * scale, found.ascent * scale, found.descent * scale, _painted(found, scale))
+
+
+def _painted(found: Typeset, scale: float) -> Draw:
+    def draw(painter: QPainter, x: float, y: float) -> None:
+        painter.save()
+        painter.translate(x, y)
+        painter.scale(scale, scale)
+        painter.fillPath(found.path, INK)
+        painter.restore()
+
+    return draw
+
+
+def _formula(block: Formula, width: float) -> Iterator[Strip]:
+    """Its parts side by side as long as there is room, then on lines of their own, further in."""
+    left = _INDENT + (_LABEL if block.label else 0.0)
+    parts = [
+        set_formula(part, FORMULA_SIZE, width - left - (_INDENT if number else 0.0))
+        for number, part in enumerate(block.parts)
+    ]
+    lines = _flowed(parts, width - left, _GAP, _INDENT)
+    for number, line in enumerate(lines):
+        begin, label = (left, block.label.strip()) if number == 0 else (left + _INDENT, "")
+        yield _formula_line(begin, line, label, _GAP, keep=number < len(lines) - 1)
+
+
+def _formulas(block: Formulas, width: float) -> Iterator[Strip]:
+    parts = [set_formula(part, FORMULA_SIZE, width - _INDENT) for part in block.parts]
+    for line in _flowed(parts, width - _INDENT, _APART, 0.0):
+        yield _formula_line(_INDENT, line, "", _APART)
+
+
+def _flowed(parts: list[Set], width: float, gap: float, further: float) -> list[list[Set]]:
+    """Parts in lines; those after the first begin further in."""
+    lines: list[list[Set]] = []
+    room = 0.0
+    for part in parts:
+        if lines and part.width + gap <= room:
+            lines[-1].append(part)
+            room -= part.width + gap
+        else:
+            room = width - part.width - (further if lines else 0.0)
+            lines.append([part])
+    return lines
+
+
+def _formula_line(begin: float, line: list[Set], label: str, gap: float, *, keep: bool = False) -> Strip:
+    ascent, descent = max(part.ascent for part in line), max(part.descent for part in line)
+    name = Text(label, faces.NOTE, 60.0)
+
+    def draw(painter: QPainter, x: float, y: float) -> None:
+        if label:
+            name.draw(painter, x + _INDENT, y + ascent - 7.4)
+        at = x + begin
+        for part in line:
+            part.draw(painter, at, y + ascent)
+            at += part.width + gap
+
+    return Strip(ascent + descent, draw, 6.0, keep)
+
+
+# --- figures -------------------------------------------------------------------------------------------------------
+
+
+def _figure(block: Figure, width: float) -> Iterator[Strip]:
+    """Pictures; the last one is kept together with the caption below it."""
+    for number, picture in enumerate(block.pictures):
+        above = 14.0 if number == 0 else 8.0
+        strip = _chart(picture, width) if isinstance(picture, Chart) else _picture(picture, width)
+        yield strip._replace(above=above, keep=number == len(block.pictures) - 1)
+    caption = Text(caption_runs(block.caption), faces.CAPTION, width)
+    yield Strip(caption.height, caption.draw, 6.0)
+    yield Strip(0.0, _nothing, 8.0)
+
+
+def _nothing(_painter: QPainter, _x: float, _y: float) -> None:
+    pass
+
+
+def caption_runs(caption: str) -> tuple[Run, ...]:
+    """ "Figure 1:" in bold, then its text."""
+    name, colon, text = caption.partition(": ")
+    return (Run(f"{name}:", "bold"), Run(f" {text}")) if colon else runs(caption)
+
+
+def _chart(chart: Chart, width: float) -> Strip:
+    drawing = QSvgRenderer(QByteArray(chart_svg(chart).encode()))
+    height = chart_height(chart)
+
+    def draw(painter: QPainter, x: float, y: float) -> None:
+        drawing.render(painter, QRectF(x, y, width, height))
+
+    return Strip(height, draw)
+
+
+def _picture(picture: ScenePicture, width: float) -> Strip:
+    wide = _PICTURE_SHARE * width
+    height = wide * picture.height / picture.width
+
+    def draw(painter: QPainter, x: float, y: float) -> None:
+        image = scene_image(picture.scene, picture.camera, picture.width, picture.height, _PICTURE_SHARPER)
+        image.setDevicePixelRatio(1.0)
+        box = QRectF(QPointF(x + 0.5 * (width - wide), y), QPointF(x + 0.5 * (width + wide), y + height))
+        painter.drawImage(box, image)
+        painter.setPen(QPen(faces.MUTED, 0.3))
+        painter.drawRect(box)
+
+    return Strip(height, draw)

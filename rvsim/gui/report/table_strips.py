@@ -1,0 +1,153 @@
+"""Tables as strips: three rules, columns as wide as what is in them, the head repeated on the next page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from PySide6.QtCore import QPointF
+from PySide6.QtGui import QPainter, QPen
+
+from rvsim.gui.report import typography as faces
+from rvsim.gui.report.strips import Set, Strip, caption_runs, set_formula, text_strips
+from rvsim.gui.report.typography import RULE, Face, Text, text_width
+from rvsim.lab.report.values import Column, Run, Table, Words, runs
+
+_PAD, _LEAST_PAD = 7.0, 2.5  # at each side of a cell
+_LEAST_SCALE = 0.74
+_SPREAD = 0.85  # of the page: a table as wide as that takes all of it
+_MATH_SIZE = 9.5
+_THICK, _THIN = 1.0, 0.5
+
+
+class _Grid(NamedTuple):
+    """Where the columns are: left edges and widths without their padding; how much smaller than usual all of it is."""
+
+    lefts: tuple[float, ...]
+    widths: tuple[float, ...]
+    width: float
+    scale: float
+
+
+def table_strips(table: Table, width: float) -> Iterator[Strip]:
+    """Caption, head, rows, note."""
+    grid = _grid(table, width)
+    caption = Text(caption_runs(table.caption), faces.CAPTION, width)
+    yield Strip(caption.height, caption.draw, 14.0, keep=True)
+    head = _row(tuple(column.head for column in table.columns), table.columns, grid, faces.HEAD, (_THICK, _THIN))
+    if any(_is_head(column.head) for column in table.columns):
+        yield head._replace(above=4.0, keep=True)
+    else:
+        head = _rule(grid)
+        yield head._replace(above=4.0, keep=True)
+    yield from _rows(table, grid, head)
+    yield Strip(_THICK, _rule(grid).draw, 0.0, keep=bool(table.note))
+    if table.note:
+        yield from text_strips(table.note, faces.NOTE, width, above=3.0)
+    yield Strip(0.0, lambda *_: None, 8.0)
+
+
+def _is_head(head: Words) -> bool:
+    return any(run.text for run in runs(head))
+
+
+def _rows(table: Table, grid: _Grid, head: Strip) -> Iterator[Strip]:
+    """The first two rows stay with the head, the last two with the rule below them."""
+    count = len(table.rows)
+    for number, row in enumerate(table.rows):
+        rule = _THIN if table.totals and number == count - table.totals else 0.0
+        strip = _row(row, table.columns, grid, faces.CELL, (rule, 0.0))
+        yield strip._replace(keep=number in (0, count - 2, count - 1), again=(head,))
+
+
+def _rule(grid: _Grid) -> Strip:
+    return Strip(_THICK, lambda painter, x, y: _line(painter, x, y, grid.width, _THICK))
+
+
+def _line(painter: QPainter, x: float, y: float, width: float, thickness: float) -> None:
+    painter.setPen(QPen(RULE, thickness))
+    painter.drawLine(QPointF(x, y), QPointF(x + width, y))
+
+
+def _grid(table: Table, width: float) -> _Grid:
+    natural = [_natural(index, column, table) for index, column in enumerate(table.columns)]
+    pad = _PAD
+    while sum(natural) + 2.0 * pad * len(natural) > width and pad > _LEAST_PAD:
+        pad -= 0.5
+    scale = min(1.0, max(_LEAST_SCALE, (width - 2.0 * pad * len(natural)) / sum(natural)))
+    widths = [scale * each for each in natural]
+    over = sum(widths) + 2.0 * pad * len(widths) - width
+    if over > 0.0:
+        widths = _narrowed(widths, table.columns, over)
+    used = sum(widths) + 2.0 * pad * len(widths)
+    if used > _SPREAD * width:
+        pad += max(0.0, width - used) / (2.0 * len(widths))
+        used = max(used, width)
+    lefts, at = [], 0.0
+    for each in widths:
+        lefts.append(at + pad)
+        at += each + 2.0 * pad
+    return _Grid(tuple(lefts), tuple(widths), used, scale)
+
+
+def _natural(index: int, column: Column, table: Table) -> float:
+    cells = (_cell_width(row[index]) for row in table.rows)
+    return max(text_width(column.head, faces.HEAD), *cells, 4.0) + 0.5
+
+
+def _cell_width(words: Words) -> float:
+    formula = _math(words)
+    return set_formula(formula, _MATH_SIZE, 1e4).width if formula else text_width(words, faces.CELL)
+
+
+def _math(words: Words) -> str:
+    """The LaTeX of a cell that is a formula."""
+    first = runs(words)[0] if runs(words) else Run("")
+    return first.text if first.style == "math" else ""
+
+
+def _narrowed(widths: list[float], columns: tuple[Column, ...], over: float) -> list[float]:
+    """The columns whose text may break give what is missing; where there is none, the widest of words does."""
+    wide = [i for i, column in enumerate(columns) if column.wide] or [
+        max((i for i, column in enumerate(columns) if column.align == "left"), key=lambda i: widths[i], default=0)
+    ]
+    share = over / len(wide)
+    return [max(each - share, 30.0) if i in wide else each for i, each in enumerate(widths)]
+
+
+def _row(
+    cells: tuple[Words, ...], columns: tuple[Column, ...], grid: _Grid, face: Face, rules: tuple[float, float]
+) -> Strip:
+    """One row; `rules` are the thicknesses of the lines above and below it."""
+    made = [_cell(cell, face, width, grid.scale) for cell, width in zip(cells, grid.widths, strict=True)]
+    air = 2.0 if face is faces.CELL else 3.0
+    height = max(max(_height(cell) for cell in made) + air, face.leading * grid.scale + air)
+
+    def draw(painter: QPainter, x: float, y: float) -> None:
+        for thickness, at in ((rules[0], y), (rules[1], y + height)):
+            if thickness:
+                _line(painter, x, at, grid.width, thickness)
+        for cell, column, left, width in zip(made, columns, grid.lefts, grid.widths, strict=True):
+            free = width - cell.width
+            shift = {"left": 0.0, "center": 0.5 * free, "right": free}[column.align]
+            _draw_cell(cell, painter, x + left + shift, y + 0.5 * air, height - air)
+
+    return Strip(height, draw)
+
+
+def _cell(words: Words, face: Face, width: float, scale: float) -> Text | Set:
+    formula = _math(words)
+    if formula:
+        return set_formula(formula, _MATH_SIZE * scale, width)
+    return Text(words, face, width + 1.0, scale=scale)
+
+
+def _height(cell: Text | Set) -> float:
+    return cell.height if isinstance(cell, Text) else cell.ascent + cell.descent
+
+
+def _draw_cell(cell: Text | Set, painter: QPainter, x: float, y: float, height: float) -> None:
+    if isinstance(cell, Text):
+        cell.draw(painter, x, y)
+    else:
+        cell.draw(painter, x, y + 0.5 * (height + cell.ascent - cell.descent))

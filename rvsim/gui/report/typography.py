@@ -1,0 +1,147 @@
+"""Letters on paper: the faces of a report, and text set in lines. All lengths are points, 1/72 inch."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import resources
+from typing import NamedTuple
+
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontDatabase,
+    QFontMetricsF,
+    QPainter,
+    QTextCharFormat,
+    QTextLayout,
+    QTextOption,
+)
+
+from rvsim.lab.report.values import Run, Words, runs
+
+FINE = 20.0  # text is set in twentieths of a point, so that rounding is not seen
+INK, MUTED, RULE = QColor("#1D2733"), QColor("#566373"), QColor("#1D2733")
+ACCENT = QColor("#2F55D4")
+_COLORS = {"good": QColor("#00664B"), "warning": QColor("#8A4B00"), "bad": QColor("#B3261E"), "muted": MUTED}
+_SANS = ["Helvetica Neue", "Helvetica", "Arial", "Liberation Sans", "Nimbus Sans", "DejaVu Sans"]
+_MONO = ["DejaVu Sans Mono", "Consolas", "Menlo", "Liberation Mono", "Courier New", "monospace"]
+
+
+class Face(NamedTuple):
+    """A way to set text: which letters, how large, how far from line to line [pt]."""
+
+    size: float
+    leading: float
+    sans: bool = False
+    bold: bool = False
+    color: QColor = INK
+
+
+BODY = Face(10.5, 14.2)
+LEAD = Face(11.5, 16.0)
+NOTE = Face(8.0, 10.6, sans=True, color=MUTED)
+CAPTION = Face(8.6, 11.4, sans=True)
+CELL = Face(9.5, 13.6)
+HEAD = Face(8.0, 11.0, sans=True, bold=True)
+TITLE = Face(22.0, 27.0, sans=True, bold=True)
+SECTION = Face(14.0, 18.0, sans=True, bold=True)
+SUBHEAD = Face(10.5, 14.0, sans=True, bold=True)
+SMALL = Face(8.0, 10.0, sans=True, color=MUTED)
+
+
+@cache
+def serif_families() -> list[str]:
+    """The letters that belong to the formulas, which come with them, then those that are like them."""
+    with resources.as_file(resources.files("ziamath") / "fonts" / "STIXTwoMath-Regular.ttf") as file:
+        number = QFontDatabase.addApplicationFont(str(file))
+    own = QFontDatabase.applicationFontFamilies(number) if number >= 0 else []
+    return ["STIX Two Text", *own, "Times New Roman", "Liberation Serif", "Nimbus Roman", "DejaVu Serif"]
+
+
+def font(face: Face, style: str = "", scale: float = FINE) -> QFont:
+    """The font of a face, `scale` times as large."""
+    made = QFont(_MONO if style == "code" else _SANS if face.sans or style == "bold" else serif_families())
+    size = face.size * (0.86 if style == "code" or (style == "bold" and not face.sans) else 1.0)
+    made.setPixelSize(max(1, round(size * scale)))
+    made.setHintingPreference(QFont.HintingPreference.PreferNoHinting)
+    if face.bold or style in ("bold", "bad"):
+        made.setWeight(QFont.Weight.DemiBold if not face.bold else QFont.Weight.Bold)
+    return made
+
+
+class Text:
+    """Words in lines of a width."""
+
+    def __init__(self, words: Words, face: Face, width: float, *, justified: bool = False, scale: float = 1.0) -> None:
+        self.face, self._scale = face, scale
+        pieces = [run for run in runs(words) if run.text]
+        text = "".join(run.text for run in pieces)
+        self._layout = QTextLayout(text, font(face))
+        option = QTextOption(Qt.AlignmentFlag.AlignJustify if justified else Qt.AlignmentFlag.AlignLeft)
+        option.setWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
+        self._layout.setTextOption(option)
+        self._layout.setFormats(_formats(pieces, face))
+        self._layout.beginLayout()
+        while (line := self._layout.createLine()).isValid():
+            line.setLineWidth(width * FINE / scale)
+        self._layout.endLayout()
+
+    @property
+    def count(self) -> int:
+        """How many lines."""
+        return self._layout.lineCount()
+
+    @property
+    def leading(self) -> float:
+        """From line to line."""
+        return self.face.leading * self._scale
+
+    @property
+    def height(self) -> float:
+        """Of all lines."""
+        return self.count * self.leading
+
+    @property
+    def width(self) -> float:
+        """Of the longest line."""
+        lines = (self._layout.lineAt(number).naturalTextWidth() for number in range(self.count))
+        return max(lines, default=0.0) * self._scale / FINE
+
+    def draw(self, painter: QPainter, x: float, y: float, first: int = 0, last: int | None = None) -> None:
+        """Some of its lines, the first one's upper edge at y."""
+        painter.save()
+        painter.translate(x, y)
+        painter.scale(self._scale / FINE, self._scale / FINE)
+        painter.setPen(self.face.color)
+        for row, number in enumerate(range(first, self.count if last is None else last)):
+            line = self._layout.lineAt(number)
+            baseline = (row + 0.5) * self.face.leading + 0.34 * self.face.size
+            line.draw(painter, QPointF(-line.x(), baseline * FINE - line.ascent() - line.y()))
+        painter.restore()
+
+
+def _formats(pieces: list[Run], face: Face) -> list[QTextLayout.FormatRange]:
+    formats, start = [], 0
+    for run in pieces:
+        length = _utf16(run.text)
+        if run.style:
+            made = QTextLayout.FormatRange()
+            made.start, made.length = start, length
+            look = QTextCharFormat()
+            look.setFont(font(face, run.style))
+            look.setForeground(_COLORS.get(run.style, face.color))
+            made.format = look
+            formats.append(made)
+        start += length
+    return formats
+
+
+def _utf16(text: str) -> int:
+    """How long Qt finds it."""
+    return len(text.encode("utf-16-le")) // 2
+
+
+def text_width(words: Words, face: Face) -> float:
+    """Of one line."""
+    return sum(QFontMetricsF(font(face, run.style)).horizontalAdvance(run.text) for run in runs(words)) / FINE

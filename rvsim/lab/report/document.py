@@ -1,0 +1,138 @@
+"""The report of a study: which parts it has, and the document that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from rvsim.lab.report.figures import Measures, counted, scientific, sentence_list
+from rvsim.lab.report.section_end import end_section
+from rvsim.lab.report.section_inverse import inverse_section
+from rvsim.lab.report.section_jacobian import jacobian_section
+from rvsim.lab.report.section_measured import measured_section
+from rvsim.lab.report.section_motion import motion_section
+from rvsim.lab.report.section_path import path_section
+from rvsim.lab.report.section_pose import pose_section
+from rvsim.lab.report.section_robot import robot_section
+from rvsim.lab.report.section_sources import sources_section
+from rvsim.lab.report.section_torques import torques_section
+from rvsim.lab.report.study import Study
+from rvsim.lab.report.values import Cover, Document, Paragraph, Section, numbered
+from rvsim.lab.sources import errata
+
+
+class Part(NamedTuple):
+    """A part that may be left out: its name, what it is called, and whether a study has it."""
+
+    name: str
+    title: str
+    there: Callable[[Study], bool]
+
+
+def _always(_study: Study) -> bool:
+    return True
+
+
+PARTS: tuple[Part, ...] = (
+    Part("robot", "The robot: DH table, limits, sources", _always),
+    Part("pose", "Forward kinematics with all matrices", _always),
+    Part("inverse", "Inverse kinematics: all branches", _always),
+    Part("steps", "Inverse kinematics: the closed form step by step", lambda study: study.inverse is not None),
+    Part("jacobian", "Jacobian and singularities", _always),
+    Part("torques", "Forces and torques", _always),
+    Part("path", "The path and its check", lambda study: study.tracking is not None),
+    Part("motion", "Curves over time", lambda study: study.trajectory is not None),
+    Part(
+        "measured",
+        "On the arm: desired, commanded, measured",
+        lambda study: study.recording is not None and not study.recording.empty,
+    ),
+    Part("sources", "Errata of the sources", lambda study: bool(errata(study.robot))),
+)
+
+
+def parts_of(study: Study) -> tuple[str, ...]:
+    """The names of the parts that a study has."""
+    return tuple(part.name for part in PARTS if part.there(study))
+
+
+def build(
+    study: Study, cover: Cover, parts: Collection[str] | None = None, files: Mapping[str, str] | None = None
+) -> Document:
+    """The document, its captions numbered.
+
+    Args:
+        cover: its date too: nothing here reads a clock.
+        parts: names of `PARTS`, None for all; what the study has not is left out.
+        files: the names of the files beside the report, and what is in each.
+    """
+    measures = Measures(study.robot, study.units)
+    wanted = set(parts_of(study)) & set(parts_of(study) if parts is None else parts)
+    makers: dict[str, Callable[[], Section]] = {
+        "robot": lambda: robot_section(study, measures),
+        "pose": lambda: pose_section(study, measures),
+        "inverse": lambda: inverse_section(study, measures, steps="steps" in wanted),
+        "jacobian": lambda: jacobian_section(study, measures),
+        "torques": lambda: torques_section(study),
+        "path": lambda: path_section(study, measures),
+        "motion": lambda: motion_section(study, measures),
+        "measured": lambda: measured_section(study, measures),
+        "sources": lambda: sources_section(study, measures),
+    }
+    sections = [make() for name, make in makers.items() if name in wanted]
+    everything = (_summary(study, measures), *sections, end_section(study, files or {}))
+    return numbered(Document(cover, study.robot.title, everything))
+
+
+def _summary(study: Study, measures: Measures) -> Section:
+    place = ", ".join(measures.length.text(float(value)) for value in study.T[:3, 3])
+    joints = ", ".join(measures.joint(i).amount(float(value)) for i, value in enumerate(study.q))
+    sentences = [
+        f"The {study.robot.title} stands at q = ({joints}).",
+        f"Its tool is then at x, y, z = ({place}) {measures.length.unit}.",
+        *_inverse_words(study),
+        *_path_words(study, measures),
+        *_measured_words(study, measures),
+    ]
+    return Section("Summary", (Paragraph(" ".join(sentences), "lead"),))
+
+
+def _inverse_words(study: Study) -> list[str]:
+    if study.inverse is None:
+        return []
+    count, within = len(study.inverse.branches), sum(branch.within_limits for branch in study.inverse.branches)
+    poses = counted(count, "joint pose leads", "joint poses lead")
+    verdict = f"{counted(within, 'of them', 'of them')} within" if count > 1 else "within" if within else "outside"
+    return [f"For the arm’s task {poses} there, {verdict} the limits."]
+
+
+def _path_words(study: Study, measures: Measures) -> list[str]:
+    tracking = study.tracking
+    if tracking is None:
+        return []
+    title = tracking.path.title or tracking.path.name
+    reached = f"{100.0 * tracking.reached_count / tracking.samples:.0f} % of the {tracking.samples} points"
+    if tracking.rms is None:
+        return [f"Of the path “{title}” no point can be reached."]
+    rms = scientific(tracking.rms * measures.length.factor)
+    return [f"On the path “{title}” it reaches {reached}, with an RMS deviation of {rms} {measures.length.unit}."]
+
+
+def _measured_words(study: Study, measures: Measures) -> list[str]:
+    if study.recording is None or study.recording.empty:
+        return []
+    rms = float(study.recording.tool_errors(study.robot).rms)
+    if np.isnan(rms):
+        return []
+    return [f"When the motion ran on an arm, the tool was {measures.length.amount(rms)} (RMS) from where it was to be."]
+
+
+def title_of(study: Study) -> str:
+    """A title to begin with: the arm and what was done with it."""
+    done = [
+        *(["path"] if study.tracking is not None else ["pose"]),
+        *(["run on the arm"] if study.recording is not None and not study.recording.empty else []),
+    ]
+    return f"{study.robot.title}: {sentence_list(done)}"

@@ -1,0 +1,153 @@
+"""Numbers of a report: texts with fixed decimals, units in the heads, matrices whose digits stand below each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rvsim.lab.sentences import Units
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.units import degrees_from_radians, millimetres_from_metres
+
+MINUS, DASH = "\u2212", "–"
+ASSUMED = "†"  # behind a number that no source gives
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True)
+class Measure:
+    """How one kind of number is written: shown = factor · value, with that unit and so many decimals."""
+
+    factor: float
+    unit: str
+    decimals: int
+
+    def text(self, value: float, fewer: int = 0) -> str:
+        """The number alone; ∞ and a dash for what is none."""
+        return number(value * self.factor, max(self.decimals - fewer, 0))
+
+    def amount(self, value: float) -> str:
+        """The number with its unit."""
+        space = "" if self.unit == "°" else " "
+        return f"{self.text(value)}{space}{self.unit}" if self.unit else self.text(value)
+
+    def per(self, below: str) -> Measure:
+        """The rate of it: "°/s"."""
+        return Measure(self.factor, f"{self.unit}{below}", self.decimals)
+
+
+PLAIN = Measure(1.0, "", 4)
+_ANGLES = {
+    "deg": Measure(degrees_from_radians(1.0), "°", 2),
+    "rad": Measure(1.0, "rad", 4),
+}
+_LENGTHS = {"mm": Measure(millimetres_from_metres(1.0), "mm", 2), "m": Measure(1.0, "m", 5)}
+
+
+class Measures:
+    """The measures of one arm in the wanted units; lengths in the arm's own where its source gives them none."""
+
+    def __init__(self, robot: Robot, units: Units) -> None:
+        self.robot, self.units = robot, units
+        self.angle = _ANGLES[units.angle]
+        self.length = Measure(1.0, "units", 3) if robot.length_unit == "unit" else _LENGTHS[units.length]
+        self.metre = "units" if robot.length_unit == "unit" else "m"  # what Jacobians are written in
+
+    def joint(self, index: int) -> Measure:
+        """Of joint `index` (from 0)."""
+        return self.angle if self.robot.joints[index].revolute else self.length
+
+    def torque(self, index: int) -> Measure:
+        """What joint `index` gives."""
+        return Measure(1.0, "N m" if self.robot.joints[index].revolute else "N", 3)
+
+    @property
+    def joint_unit(self) -> str:
+        """Of the axis of all joints: "°", or "°, mm" where the arm turns and slides."""
+        return ", ".join(dict.fromkeys(self.joint(index).unit for index in range(self.robot.dof)))
+
+
+def number(value: float, decimals: int) -> str:
+    """Fixed decimals, a true minus sign, no minus before zero."""
+    if math.isnan(value):
+        return DASH
+    if math.isinf(value):
+        return "∞" if value > 0 else f"{MINUS}∞"
+    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
+
+
+def scientific(value: float) -> str:
+    """An error or a residual: 3.1·10⁻¹⁶, never rounded to 0."""
+    if value == 0.0 or not math.isfinite(value):
+        return "0" if value == 0.0 else number(value, 0)
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return f"{mantissa}·10{str(int(exponent)).translate(_SUPERSCRIPTS)}".replace("-", MINUS)
+
+
+def small(value: float) -> str:
+    """Four decimals, powers of ten where these would show nothing, 0 where only rounding is left."""
+    if abs(value) < 1e-12:
+        return "0"
+    return number(value, 4) if abs(value) >= 1e-3 else scientific(value)
+
+
+def matrix_latex(cells: Sequence[Sequence[str]]) -> str:
+    """Rows of numbers, written with ASCII minus signs; those of a column end at the same place."""
+    widths = [max(map(_digits, column)) for column in zip(*cells, strict=True)]
+    signs = [any(cell.startswith("-") for cell in column) for column in zip(*cells, strict=True)]
+    lines = (" & ".join(_padded(*entry) for entry in zip(row, widths, signs, strict=True)) for row in cells)
+    body = " \\\\ ".join(lines)
+    return f"\\begin{{bmatrix}} {body} \\end{{bmatrix}}"
+
+
+def _digits(cell: str) -> int:
+    return sum(letter.isdigit() for letter in cell)
+
+
+def _padded(cell: str, width: int, signed: bool) -> str:
+    """With places that stay empty for a sign and for digits, which the typesetter keeps as wide as these."""
+    digits = cell.lstrip("-")
+    sign = "{-}" if digits != cell else "\\phantom{-}" if signed else ""
+    return sign + "\\phantom{0}" * (width - _digits(cell)) + digits
+
+
+def entry(value: float, measure: Measure, fewer: int = 0) -> str:
+    """An entry of a matrix."""
+    return measure.text(value, fewer).replace(MINUS, "-")
+
+
+def transform_latex(T: FloatArray, length: Measure) -> str:
+    """A transform (4, 4), its last column in that unit."""
+    rows = [[*(entry(float(v), PLAIN) for v in row[:3]), entry(float(row[3]), length)] for row in np.asarray(T)[:3]]
+    return matrix_latex([*rows, ["0", "0", "0", "1"]])
+
+
+def table_latex(values: FloatArray, decimals: int) -> str:
+    """A matrix (m, n) or vector (n,) of plain numbers."""
+    rows = np.asarray(values, dtype=np.float64)
+    rows = rows[:, None] if rows.ndim == 1 else rows
+    plain = Measure(1.0, "", decimals)
+    return matrix_latex([[entry(float(value), plain) for value in row] for row in rows])
+
+
+def subscript(index: int) -> str:
+    """3 as ₃."""
+    return str(index).translate(_SUBSCRIPTS)
+
+
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def counted(number: int, one: str, many: str) -> str:
+    """ "one branch", "four branches"."""
+    words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+    return f"{words[number] if number < len(words) else number} {one if number == 1 else many}"
+
+
+def sentence_list(parts: Sequence[str]) -> str:
+    """ "a, b and c"."""
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"

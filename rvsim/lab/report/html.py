@@ -1,0 +1,171 @@
+"""The report as one page of HTML that needs nothing else: styles, formulas, curves and pictures are inside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from html import escape
+from typing import Protocol
+
+from rvsim.lab.report.chart import Chart
+from rvsim.lab.report.chart_svg import chart_svg
+from rvsim.lab.report.html_style import STYLE
+from rvsim.lab.report.values import (
+    Block,
+    Column,
+    Document,
+    Figure,
+    Formula,
+    Formulas,
+    Items,
+    Paragraph,
+    Run,
+    ScenePicture,
+    Section,
+    Subheading,
+    Table,
+    Words,
+    runs,
+)
+
+_TOTAL = ' class="total"'
+
+
+class Artist(Protocol):
+    """Who draws what letters cannot say."""
+
+    def formula(self, latex: str) -> str:
+        """A formula as an SVG element."""
+        ...
+
+    def picture(self, picture: ScenePicture) -> str:
+        """A picture as a data URI."""
+        ...
+
+    def symbols(self) -> str:
+        """What the formulas drawn so far share: an SVG element for the page, or nothing."""
+        ...
+
+
+def html_page(document: Document, artist: Artist) -> str:
+    """The whole page."""
+    return "".join(html_parts(document, artist))
+
+
+def html_parts(document: Document, artist: Artist) -> Iterator[str]:
+    """The same, one section at a time: drawing takes a while."""
+    cover = document.cover
+    yield (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8"/>\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1"/>\n'
+        f"<title>{escape(cover.title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n"
+    )
+    yield _head(document)
+    for section in document.sections:
+        yield _section(section, artist)
+    yield f"</main>\n{artist.symbols()}\n</body>\n</html>\n"
+
+
+def _head(document: Document) -> str:
+    cover = document.cover
+    who = " · ".join(f'<span dir="auto">{escape(text)}</span>' for text in (cover.author, cover.date) if text)
+    notes = "".join(f'<p class="own" dir="auto">{escape(line)}</p>\n' for line in _lines(cover.notes))
+    return (
+        f'<header>\n<p class="kind">Laboratory report</p>\n<h1 dir="auto">{escape(cover.title)}</h1>\n'
+        f'<p class="who">{who}</p>\n{notes}</header>\n'
+    )
+
+
+def _lines(text: str) -> list[str]:
+    return [line.strip() for line in text.splitlines() if line.strip()]
+
+
+def _section(section: Section, artist: Artist) -> str:
+    blocks = "".join(_BLOCKS[type(block)](block, artist) for block in section.blocks)
+    title = f'<span class="number">{section.number}</span> {escape(section.title)}'
+    return f"<section>\n<h2>{title}</h2>\n{blocks}</section>\n"
+
+
+def _words(words: Words, artist: Artist) -> str:
+    return "".join(_run(run, artist) for run in runs(words))
+
+
+def _run(run: Run, artist: Artist) -> str:
+    if run.style == "math":
+        return artist.formula(run.text)
+    tag = {"": "", "bold": "b", "code": "code"}.get(run.style)
+    if tag is None:
+        return f'<span class="{run.style}">{escape(run.text)}</span>'
+    return f"<{tag}>{escape(run.text)}</{tag}>" if tag else escape(run.text)
+
+
+def _paragraph(block: Paragraph, artist: Artist) -> str:
+    name = "" if block.role == "body" else f' class="{block.role}"'
+    return f"<p{name}>{_words(block.words, artist)}</p>\n"
+
+
+def _subheading(block: Subheading, artist: Artist) -> str:
+    return f"<h3>{_words(block.words, artist)}</h3>\n"
+
+
+def _items(block: Items, artist: Artist) -> str:
+    if not block.marks:
+        return "<ul>" + "".join(f"<li>{_words(item, artist)}</li>" for item in block.items) + "</ul>\n"
+    rows = zip(block.marks, block.items, strict=True)
+    inside = "".join(f"<li>{_run(mark, artist)} {_words(item, artist)}</li>" for mark, item in rows)
+    return f'<ul class="marked">{inside}</ul>\n'
+
+
+def _formula(block: Formula, artist: Artist) -> str:
+    label = f'<span class="label">{escape(block.label)}</span>' if block.label else ""
+    return f'<div class="formula">{label}{" ".join(artist.formula(part) for part in block.parts)}</div>\n'
+
+
+def _formulas(block: Formulas, artist: Artist) -> str:
+    return f'<div class="formula">{" ".join(artist.formula(part) for part in block.parts)}</div>\n'
+
+
+def _table(block: Table, artist: Artist) -> str:
+    head = "".join(f'<th class="{column.align}">{_words(column.head, artist)}</th>' for column in block.columns)
+    first_total = len(block.rows) - block.totals
+    rows = "".join(
+        f"<tr{_TOTAL if number == first_total else ''}>{_cells(row, block.columns, artist)}</tr>\n"
+        for number, row in enumerate(block.rows)
+    )
+    note = f'<p class="note">{escape(block.note)}</p>\n' if block.note else ""
+    return (
+        f'<figure class="table"><figcaption>{_caption(block.caption)}</figcaption><div class="scroll"><table>'
+        f"<thead><tr>{head}</tr></thead>\n<tbody>{rows}</tbody></table></div>{note}</figure>\n"
+    )
+
+
+def _cells(row: tuple[Words, ...], columns: tuple[Column, ...], artist: Artist) -> str:
+    return "".join(
+        f'<td class="{column.align}">{_words(cell, artist)}</td>' for cell, column in zip(row, columns, strict=True)
+    )
+
+
+def _caption(caption: str) -> str:
+    name, colon, text = caption.partition(": ")
+    return f"<b>{escape(name)}{colon}</b>{escape(text)}" if colon else escape(caption)
+
+
+def _figure(block: Figure, artist: Artist) -> str:
+    pictures = "".join(_picture(picture, artist) for picture in block.pictures)
+    return f"<figure>{pictures}<figcaption>{_caption(block.caption)}</figcaption></figure>\n"
+
+
+def _picture(picture: ScenePicture | Chart, artist: Artist) -> str:
+    if isinstance(picture, Chart):
+        return chart_svg(picture).replace(' xmlns="http://www.w3.org/2000/svg"', "")
+    return f'<img alt="{escape(picture.text)}" src="{artist.picture(picture)}"/>'
+
+
+_BLOCKS: dict[type[Block], Callable[..., str]] = {
+    Paragraph: _paragraph,
+    Subheading: _subheading,
+    Items: _items,
+    Formula: _formula,
+    Formulas: _formulas,
+    Table: _table,
+    Figure: _figure,
+}

@@ -1,0 +1,45 @@
+"""The look of the page: a sheet of paper on a grey table, tables with three rules, and the same when it is printed."""
+
+STYLE = """
+:root { color-scheme: light; }
+body { margin: 0; background: #eef1f5; color: #1d2733; font: 17px/1.5 "STIX Two Text", "Times New Roman",
+  "Nimbus Roman", "Liberation Serif", "Tinos", serif; }
+main { max-width: 860px; margin: 32px auto; padding: 56px 72px; background: #fff; box-shadow: 0 1px 6px #22324a33; }
+h1, h2, h3, th, figcaption, .kind, .who, .label, .note { font-family: Helvetica, Arial, "Liberation Sans",
+  "Nimbus Sans", "DejaVu Sans", sans-serif; }
+h1 { font-size: 28px; line-height: 1.2; margin: 4px 0 8px; }
+h2 { font-size: 20px; margin: 44px 0 12px; }
+h2 .number { color: #2f55d4; margin-right: 6px; }
+h3 { font-size: 16px; margin: 28px 0 8px; }
+header { border-bottom: 2px solid #1d2733; padding-bottom: 16px; }
+.kind { color: #566373; font-size: 13px; letter-spacing: .08em; text-transform: uppercase; margin: 0; }
+.who { color: #4a5665; margin: 0 0 8px; font-size: 15px; }
+p { margin: 10px 0; }
+.lead { font-size: 18px; }
+.own { border-inline-start: 3px solid #c8d1dd; padding-inline-start: 12px; }
+.note { color: #566373; font-size: 13px; line-height: 1.4; }
+ul { padding-left: 22px; } ul.marked { list-style: none; padding-left: 0; }
+li { margin: 4px 0; }
+code { font-family: "DejaVu Sans Mono", Consolas, Menlo, monospace; font-size: 85%; }
+.formula { margin: 12px 0 12px 28px; overflow-x: auto; }
+.formula svg { margin: 3px 8px 3px 0; vertical-align: middle; max-width: none; }
+.label { display: inline-block; width: 64px; color: #566373; font-size: 13px; }
+td svg { vertical-align: middle; }
+figure { margin: 24px 0; } figure img, figure > svg { width: 100%; height: auto; display: block; }
+figcaption { font-size: 14px; color: #1d2733; margin: 6px 0; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; width: 100%; border-top: 1.6px solid #1d2733; border-bottom: 1.6px solid #1d2733;
+  font-size: 15px; font-variant-numeric: tabular-nums; }
+th { font-size: 13px; font-weight: 600; border-bottom: .8px solid #1d2733; }
+th, td { padding: 4px 7px; white-space: nowrap; vertical-align: baseline; }
+td.left { white-space: normal; }
+tr.total td { border-top: .8px solid #1d2733; }
+.left { text-align: left; } .right { text-align: right; } .center { text-align: center; }
+.good { color: #00664b; } .warning { color: #8a4b00; } .bad { color: #b3261e; font-weight: 600; }
+.muted { color: #566373; }
+.shapes { position: absolute; width: 0; height: 0; }
+@media print { body { background: #fff; font-size: 10pt; } main { box-shadow: none; margin: 0; padding: 0;
+  max-width: none; }
+  h2, h3 { break-after: avoid; } figure, tr, .formula { break-inside: avoid; } }
+@page { size: A4; margin: 22mm; }
+"""

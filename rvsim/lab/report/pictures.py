@@ -1,0 +1,79 @@
+"""The pictures of a report: scenes composed in light colours, and where the eye stands. They are painted elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from rvsim.kinematics import link_transforms
+from rvsim.kinematics.inverse import Branch
+from rvsim.lab.report.study import Study
+from rvsim.lab.report.values import ScenePicture
+from rvsim.motion import Tracking
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+from rvsim.scene import Camera
+from rvsim.scene.build import SceneOptions, compose
+from rvsim.scene.ghosts import Ghost, ghost_items
+from rvsim.scene.palette import LIGHT
+from rvsim.scene.paths import path_items
+from rvsim.scene.primitives import Item
+
+_WIDTH, _HEIGHT = 620, 372
+_AIR = 0.04  # about what is shown, as a part of its size
+
+
+def robot_picture(study: Study) -> ScenePicture:
+    """The arm in its pose, with its frames."""
+    options = SceneOptions("both", frames=True, length_unit=study.units.length)
+    return _picture(study, study.q, (), [study.q], options, "The arm with its frames.")
+
+
+def branches_picture(study: Study, branches: Sequence[Branch]) -> ScenePicture:
+    """The arm, and every other branch as a ghost with its number."""
+    ghosts = [
+        Ghost(str(number), str(number), branch.q, branch.within_limits, here=_same(branch.q, study.q))
+        for number, branch in enumerate(branches, 1)
+    ]
+    options = SceneOptions("stick", labels=False, length_unit=study.units.length)
+    items = ghost_items(study.robot, ghosts, LIGHT)
+    return _picture(study, study.q, items, [branch.q for branch in branches], options, "All branches.")
+
+
+def path_picture(study: Study, tracking: Tracking) -> ScenePicture:
+    """The arm on its path, at three quarters of what it reached."""
+    reached = np.flatnonzero(tracking.reached)
+    q = tracking.q[reached[3 * len(reached) // 4]] if len(reached) else study.q
+    items = path_items(
+        tracking.path.points, tracking.reached, tracking.actual[reached], LIGHT, pen_up=tracking.path.pen_up
+    )
+    options = SceneOptions("solid", labels=False, length_unit=study.units.length)
+    return _picture(study, q, items, [q], options, "The arm on its path.", tracking.path.points)
+
+
+def _picture(
+    study: Study,
+    q: FloatArray,
+    extras: tuple[Item, ...],
+    shown: Sequence[FloatArray],
+    options: SceneOptions,
+    text: str,
+    more: FloatArray | None = None,
+) -> ScenePicture:
+    scene = compose(study.robot, q, LIGHT, options, extras)
+    camera = Camera(np.zeros(3), 1.0).fitted(_box(study.robot, shown, more), _WIDTH, _HEIGHT)
+    return ScenePicture(scene, camera, _WIDTH, _HEIGHT, text)
+
+
+def _box(robot: Robot, poses: Sequence[FloatArray], more: FloatArray | None) -> FloatArray:
+    """(2, 3) around the base and the arm in all these poses, with some air [m]."""
+    T = link_transforms(robot, np.stack(poses))
+    tools = (T[:, -1] @ robot.T_flange_tool)[:, :3, 3]
+    points = np.concatenate([np.zeros((1, 3)), T[..., :3, 3].reshape(-1, 3), tools, *([] if more is None else [more])])
+    air = _AIR * max(float(np.ptp(points, axis=0).max()), 0.5 * robot.size)
+    return np.array([points.min(axis=0) - (air, air, 0.0), points.max(axis=0) + air])
+
+
+def _same(one: FloatArray, other: FloatArray) -> bool:
+    return float(np.abs(one - other).max()) < 1e-6

@@ -1,0 +1,50 @@
+"""How the report was made: conventions, versions, and how to work its numbers out once more."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping
+from importlib.metadata import PackageNotFoundError, version
+
+import rvsim
+from rvsim.lab.report.figures import sentence_list
+from rvsim.lab.report.study import Study
+from rvsim.lab.report.values import Items, Paragraph, Run, Section
+
+_LENGTHS = {"mm": "millimetres", "m": "metres"}
+_PARTS = ("numpy", "scipy", "PySide6-Essentials", "ruckig", "ziamath")
+
+
+def versions() -> tuple[tuple[str, str], ...]:
+    """Name and version of what computed and drew."""
+    known = [("rvsim", rvsim.__version__), ("Python", platform.python_version())]
+    return (*known, *((part, _version(part)) for part in _PARTS))
+
+
+def _version(part: str) -> str:
+    try:
+        return version(part)
+    except PackageNotFoundError:  # in a bundle without metadata
+        return "in the bundle"
+
+
+def end_section(study: Study, files: Mapping[str, str]) -> Section:
+    """Conventions; the files beside the report with what is in them; versions."""
+    angles = "degrees" if study.units.angle == "deg" else "radians"
+    lengths = "the arm’s own unit" if study.robot.length_unit == "unit" else _LENGTHS[study.units.length]
+    conventions = (
+        f"Angles are shown in {angles}, lengths in {lengths}; inside, everything is computed in radians and metres.",
+        "ᵃTᵦ maps coordinates of frame b to those of frame a; in a product neighbouring frames cancel.",
+        "Twists and wrenches have their linear part first; the Jacobian is geometric, at the tool, in base axes.",
+        "Roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll). Quaternions have w first, and w ≥ 0.",
+    )
+    names = tuple((Run(name, "code"), Run(f" – {what}")) for name, what in files.items())
+    made = sentence_list([f"{name} {number}" for name, number in versions()])
+    return Section(
+        "How this was computed",
+        (
+            Items(conventions),
+            *((Paragraph("Beside this report lie:"), Items(names)) if names else ()),
+            Paragraph(f"Computed and drawn with {made}."),
+        ),
+    )

@@ -1,0 +1,86 @@
+"""The Jacobian with its numbers, its singular values, and the singularities of the arm and how far they are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from rvsim.kinematics.singular_families import SingularFamily, singular_families
+from rvsim.kinematics.singularity import Measures as Values
+from rvsim.kinematics.singularity import Singularity, singularity
+from rvsim.lab.report.figures import Measures, number, sentence_list, small, subscript, table_latex
+from rvsim.lab.report.study import Study
+from rvsim.lab.report.values import Block, Column, Formula, Paragraph, Run, Section, Table, Words
+
+_NEAR = 0.1  # of a family's term, to be called near
+
+
+def jacobian_section(study: Study, measures: Measures) -> Section:
+    """J, σ, families."""
+    found = singularity(study.robot, study.q)
+    metre = measures.metre
+    joint = "rad" if study.robot.is_revolute.all() else f"rad or {metre}"
+    return Section(
+        "The Jacobian",
+        (
+            Paragraph(
+                "The geometric Jacobian at the tool, in base axes: (v, ω) = J q̇. Its first three rows are the tool’s "
+                f"velocity in {metre}/s, the last three its turning in rad/s, each for 1 {joint} per second of a joint."
+            ),
+            Formula("J", (table_latex(found.J, 4),)),
+            _sigma_table(found, measures),
+            *_families(study, found, measures),
+        ),
+    )
+
+
+def _sigma_table(found: Singularity, measures: Measures) -> Table:
+    parts = [("whole twist (v, ω)", found.whole), ("velocity v alone", found.position)]
+    if found.task is not found.whole and found.task.full_rank not in (3,):
+        parts.append(("the arm’s own task", found.task))
+    most = max(len(values.singular_values) for _, values in parts)
+    columns = (
+        Column("Rows of J", "left"), *(Column(f"σ{subscript(i + 1)}") for i in range(most)), Column("condition"),
+        Column("w"), Column("rank"),
+    )  # fmt: skip
+    rows = tuple(_sigma_row(name, values, most) for name, values in parts)
+    note = f"w: manipulability, the product of all σ (Yoshikawa). σ mixes {measures.metre} and rad in the first row."
+    return Table("Singular values of the Jacobian.", columns, rows, note)
+
+
+def _sigma_row(name: str, values: Values, most: int) -> tuple[Words, ...]:
+    sigma = [small(float(value)) for value in values.singular_values]
+    condition = "∞" if math.isinf(values.condition) else number(values.condition, 1)
+    if not math.isinf(values.condition) and values.condition >= 1e5:
+        condition = small(values.condition)
+    rank = f"{values.rank} of {values.full_rank}"
+    return (name, *sigma, *[""] * (most - len(sigma)), condition, small(values.manipulability), rank)
+
+
+def _families(study: Study, found: Singularity, measures: Measures) -> Iterator[Block]:
+    known = singular_families(study.robot)
+    active = [*found.families, *found.position_families]
+    if active:
+        names = sentence_list([family.title for family in active])
+        yield Paragraph(f"The pose is singular: {names}. " + " ".join(family.sentence for family in active))
+    elif found.task.rank == found.task.full_rank:
+        yield Paragraph("The pose is not singular: the Jacobian of the arm’s task has its full rank.")
+    if known:
+        columns = (
+            Column("Singularity", "left", wide=True), Column("kind", "left"), Column("where it is", "left"),
+            Column("here"), Column("", "left"),
+        )  # fmt: skip
+        rows = tuple(_family_row(study, family, measures) for family in known)
+        yield Table("The singularities of this arm, and how far the pose is from them.", columns, rows)
+
+
+def _family_row(study: Study, family: SingularFamily, measures: Measures) -> tuple[Words, ...]:
+    values = [
+        measures.length.amount(float(value)) if term.is_length else small(float(value))
+        for term, value in zip(family.terms, family.values(study.q), strict=True)
+    ]
+    measure = float(family.measure(study.q))
+    state = (
+        Run("✗ active", "bad") if measure <= 1e-6 else Run("▲ near", "warning") if measure < _NEAR else Run("✓", "good")
+    )
+    return (family.title, family.kind, Run(family.formula, "math"), ", ".join(values), state)

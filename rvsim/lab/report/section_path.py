@@ -1,0 +1,122 @@
+"""The path: what was asked for, what the arm reached and how exactly, and what its check found before it ran."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from rvsim.lab.findings import SYMBOLS, WORDS, finding_sentence, summary_sentence
+from rvsim.lab.report.figures import ASSUMED, DASH, Measures, number, scientific
+from rvsim.lab.report.pictures import path_picture
+from rvsim.lab.report.section_motion import fine_unit
+from rvsim.lab.report.study import Study
+from rvsim.lab.report.values import Block, Column, Figure, Items, Paragraph, Run, Section, Table, Words
+from rvsim.lab.sentences import advice_sentence, tracking_sentence
+from rvsim.motion import Tracking
+from rvsim.motion.honesty import Peak, Report
+
+_LAWS = {"quintic": "quintic", "cubic": "cubic", "trapezoid": "trapezoidal"}
+
+
+def path_section(study: Study, measures: Measures) -> Section:
+    """Facts, picture, findings, peaks."""
+    tracking, report = study.tracking, study.check
+    assert tracking is not None, "asked for only where a path was tracked"
+    assert report is not None, "a tracked path is checked"
+    title = tracking.path.title or tracking.path.name
+    return Section(
+        "The path",
+        (
+            Paragraph(f"The path is “{title}”, {tracking.samples} points. {tracking_sentence(tracking, study.units)}"),
+            *((Paragraph(advice_sentence(tracking)),) if not tracking.complete else ()),
+            _facts(study, tracking, measures),
+            Figure(
+                "The path: blue what was asked for, purple what the tool draws, orange and dashed what is out of reach."
+                if not tracking.complete
+                else "The path that the tool draws.",
+                (path_picture(study, tracking),),
+            ),
+            *_findings(study, report),
+            *_peaks(report, measures),
+        ),
+    )
+
+
+def _facts(study: Study, tracking: Tracking, measures: Measures) -> Table:
+    deviation = tracking.deviation[tracking.reached]
+    share = 100.0 * tracking.reached_count / tracking.samples
+    rows: list[tuple[Words, ...]] = [
+        ("Points reached", f"{tracking.reached_count} of {tracking.samples}", f"{share:.0f} %"),
+        ("Length of the path", measures.length.text(tracking.path.length), measures.length.unit),
+        *_deviation(deviation, measures),
+        ("Changes of branch on the way", str(len(tracking.jumps)), ""),
+        ("Solving, all points", number(1e3 * tracking.solve_seconds, 1), "ms"),
+        ("Solving, a point", number(1e6 * tracking.seconds_per_point, 1), "µs"),
+    ]
+    if study.trajectory is not None:
+        law = study.experiment.law
+        rows.append(("Duration of the motion", number(study.trajectory.duration, 2), "s"))
+        rows.append(("Time law", _LAWS.get(law, law), ""))
+        rows += _between(study, measures)
+    columns = (Column("", "left"), Column("value"), Column("", "left"))
+    return Table("The path in numbers; deviations over the points that were reached.", columns, tuple(rows))
+
+
+def _between(study: Study, measures: Measures) -> list[tuple[Words, ...]]:
+    """A motion passes the points; between them it follows a spline of the joints."""
+    deviation = None if study.curves is None else study.curves.deviation
+    if deviation is None or not np.isfinite(deviation).any():
+        return []
+    factor, unit = fine_unit(deviation, measures)
+    return [("Largest deviation between the points", number(float(np.nanmax(deviation)) * factor, 2), unit)]
+
+
+def _deviation(
+    deviation: np.ndarray[tuple[int, ...], np.dtype[np.float64]], measures: Measures
+) -> Iterator[tuple[Words, ...]]:
+    if not len(deviation):
+        return
+    values = (math.sqrt(float(np.mean(deviation**2))), float(deviation.max()), float(deviation.mean()))
+    for name, value in zip(("RMS deviation", "Largest deviation", "Mean deviation"), values, strict=True):
+        yield name, scientific(value * measures.length.factor), measures.length.unit
+
+
+def _findings(study: Study, report: Report) -> Iterator[Block]:
+    yield Paragraph((Run("The check before the motion. ", "bold"), Run(summary_sentence(report))))
+    marks = tuple(Run(SYMBOLS[finding.severity], finding.severity) for finding in report.findings)
+    items = tuple(
+        (Run(f"{WORDS[finding.kind]}. ", "bold"), Run(finding_sentence(report, finding, study.units)))
+        for finding in report.findings
+    )
+    yield Items(items, marks)
+
+
+def _peaks(report: Report, measures: Measures) -> Iterator[Block]:
+    if not report.speeds:
+        return
+    columns = (
+        Column("i", "center"), Column("Joint", "left"), Column("unit", "center"), Column("max |q̇| [1/s]"),
+        Column("limit"), Column("share"), Column("max |q̈| [1/s²]"), Column("limit"), Column("share"),
+    )  # fmt: skip
+    pairs = zip(report.speeds, report.accelerations, strict=True)
+    rows = tuple(_peak_row(index, speed, rate, report, measures) for index, (speed, rate) in enumerate(pairs))
+    assumed = any(peak.limit is not None and peak.limit.assumed for peak in report.speeds)
+    yield Table(
+        "The most that the joints do on the way.",
+        columns,
+        rows,
+        f"{ASSUMED} assumed: no source gives it." if assumed else "",
+    )
+
+
+def _peak_row(index: int, speed: Peak, rate: Peak, report: Report, measures: Measures) -> tuple[Words, ...]:
+    measure = measures.joint(index)
+    cells: list[Words] = [str(index + 1), report.robot.joint_names[index], measure.unit]
+    for peak in (speed, rate):
+        limit = DASH if peak.limit is None else f"{peak.limit.value * measure.factor:.4g}"
+        mark = f" {ASSUMED}" if peak.limit is not None and peak.limit.assumed else ""
+        share = DASH if math.isnan(peak.share) else f"{100.0 * peak.share:.0f} %"
+        cells += [number(peak.value * measure.factor, measure.decimals - 1), limit + mark, share]
+    return tuple(cells)

@@ -1,0 +1,93 @@
+"""What the sources of this arm print that is not right: the formula, ours, why, and both at the pose of the report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from rvsim.lab.report.figures import PLAIN, Measure, Measures, scientific
+from rvsim.lab.report.study import Study
+from rvsim.lab.report.values import Block, Formula, Paragraph, Run, Section
+from rvsim.lab.sources import Comparison, Erratum, errata
+from rvsim.robot.arrays import FloatArray
+
+_TINY = 5e-4
+_FEW = 6  # numbers that still fit into a sentence
+
+
+def sources_section(study: Study, measures: Measures) -> Section:
+    """One entry an erratum."""
+    found = errata(study.robot)
+    sources = " and ".join(dict.fromkeys(f"source {entry.source}" for entry in found))
+    lead = (
+        f"Where {sources} of this arm prints what is not right: the formula as printed, what this report computes with "
+        "instead, the reason, and both worked out at the pose of this report (with nothing bolted to the flange)."
+    )
+    return Section(
+        "What the sources print, and what is right",
+        (Paragraph(lead), *(block for entry in found for block in _entry(study, entry, measures))),
+    )
+
+
+def _entry(study: Study, entry: Erratum, measures: Measures) -> Iterator[Block]:
+    head = f"Source {entry.source}, {entry.where}: {entry.title}."
+    yield Paragraph((Run(head, "bold"), Run(f" {entry.why}")))
+    for label, formulas in (("printed", entry.printed_latex), ("right", entry.right_latex)):
+        for number, latex in enumerate(formulas):
+            yield Formula("", (latex,), label if number == 0 else " ")
+    sentence = _numbers(study, entry, measures)
+    if sentence:
+        yield Paragraph(sentence, "note")
+
+
+def _numbers(study: Study, entry: Erratum, measures: Measures) -> str:
+    found = entry.compare(study.robot, study.q)
+    if found is None:
+        return ""
+    if np.isnan(found.printed).any():
+        return f"At this pose: {entry.undefined[0].lower()}{entry.undefined[1:]}"
+    if found.agree:
+        return "At this pose the printed formula happens to give the right value."
+    if found.right.size <= _FEW and found.right.ndim < 2:
+        return (
+            f"At this pose: printed {_few(found.printed, found, measures)}, right {_few(found.right, found, measures)}."
+        )
+    wrong = int(found.differs.sum())
+    entries = f"{wrong} of {found.right.size} entries differ"
+    return f"At this pose {entries}; the largest difference is {_worst(found, measures)}."
+
+
+def _few(values: FloatArray, found: Comparison, measures: Measures) -> str:
+    texts = [
+        _amount(float(value), str(kind), measures)
+        for value, kind in zip(np.atleast_1d(values), np.atleast_1d(found.kinds), strict=True)
+    ]
+    return texts[0] if len(texts) == 1 else f"({', '.join(texts)})"
+
+
+def _worst(found: Comparison, measures: Measures) -> str:
+    parts = []
+    for kind in dict.fromkeys(found.kinds[found.differs].ravel()):
+        gap = float(np.abs(found.difference[found.kinds == kind]).max())
+        parts.append(_amount(gap, str(kind), measures))
+    return " and ".join(parts)
+
+
+def _amount(value: float, kind: str, measures: Measures) -> str:
+    if kind == "number":
+        return scientific(value) if 1e-9 < abs(value) < _TINY else PLAIN.text(value)
+    measure = _measure(kind, measures)
+    return measure.amount(value)
+
+
+def _measure(kind: str, measures: Measures) -> Measure:
+    angle, length = measures.angle, measures.length
+    return {
+        "angle": angle,
+        "length": length,
+        "lever": length.per("/rad"),
+        "rate": angle.per("/s"),
+        "acceleration": angle.per("/s²"),
+        "torque": Measure(1.0, "N m", 3),
+    }[kind]

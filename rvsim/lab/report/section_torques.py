@@ -1,0 +1,112 @@
+"""Forces and torques: τ = Jᵀ F with its numbers, and what the arm's own weight asks for where masses are known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, joint_torques, payload_wrench
+from rvsim.lab.report.figures import ASSUMED, DASH, number, table_latex
+from rvsim.lab.report.study import Study
+from rvsim.lab.report.values import Block, Column, Formula, Items, Paragraph, Section, Table, Words
+from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
+
+_DIRECTIONS = ("fx", "fy", "fz", "mx", "my", "mz")
+
+
+@dataclass(frozen=True, eq=False)
+class Torques:
+    """What the joints give [N m, N]: against the wrench and payload (n,), and against the arm's weight, if known."""
+
+    wrench: FloatArray
+    outer: FloatArray
+    weight: FloatArray | None
+
+    @property
+    def total(self) -> FloatArray:
+        """(n,) both together."""
+        return self.outer if self.weight is None else np.asarray(self.outer + self.weight)
+
+
+def torques_of(study: Study) -> Torques:
+    """At the pose, in base axes; the payload is carried upwards."""
+    load, robot = study.experiment.load, study.robot
+    wrench = load.in_base(study.T[:3, :3]) + payload_wrench(load.payload, STANDARD_GRAVITY)
+    weight = gravity_torques(robot, study.q) if robot.masses else None
+    return Torques(np.asarray(wrench), np.asarray(joint_torques(robot, study.q, wrench)), weight)
+
+
+def torques_section(study: Study) -> Section:
+    """The load, the formula with its numbers, one row a joint."""
+    found = torques_of(study)
+    return Section(
+        "Forces and torques",
+        (
+            Paragraph(_load_words(study)),
+            *(_formula(study, found) if np.any(found.wrench) else ()),
+            _table(study, found),
+            *_weight(study.robot),
+        ),
+    )
+
+
+def _load_words(study: Study) -> str:
+    load = study.experiment.load
+    parts = []
+    if np.any(load.wrench):
+        force, moment = (", ".join(number(float(v), 2) for v in load.wrench[k : k + 3]) for k in (0, 3))
+        parts.append(f"exerts the force ({force}) N and the moment ({moment}) N m in {load.axes} axes")
+    if load.payload:
+        parts.append(f"carries {load.payload:.3g} kg")
+    if not parts:
+        return "No force at the tool and no payload were set: the drives hold the arm alone."
+    balance = "The joints balance it with τ = Jᵀ F, F being what the tool exerts at its origin."
+    return f"The tool {' and '.join(parts)}. {balance}"
+
+
+def _formula(study: Study, found: Torques) -> Iterator[Block]:
+    yield Paragraph("With F in base axes, force [N] above moment [N m]:")
+    yield Formula(
+        "\\tau",
+        (
+            "J^T F",
+            f"{table_latex(study.J.T, 3)}\\,{table_latex(found.wrench, 2)}",
+            table_latex(found.outer, 3),
+        ),
+    )
+
+
+def _table(study: Study, found: Torques) -> Table:
+    robot = study.robot
+    heads = ("from F", "own weight", "together", "rated", "share")
+    columns = (Column("i", "center"), Column("Joint", "left"), Column("unit", "center"), *map(Column, heads))
+    rows = tuple(_row(robot, index, found) for index in range(robot.dof))
+    note = (
+        f"{ASSUMED} assumed: no source gives it."
+        if any(j.max_torque and j.max_torque.assumed for j in robot.joints)
+        else ""
+    )
+    if found.weight is None:
+        note = f"{note} {DASH}: the masses of this arm are not known.".strip()
+    return Table("Torques of the joints at rest.", columns, rows, note)
+
+
+def _row(robot: Robot, index: int, found: Torques) -> tuple[Words, ...]:
+    joint, total = robot.joints[index], float(found.total[index])
+    rating = joint.max_torque
+    weight = DASH if found.weight is None else number(float(found.weight[index]), 3)
+    rated = f"{rating.value:.4g}{' ' + ASSUMED if rating.assumed else ''}" if rating else DASH
+    share = f"{100.0 * abs(total) / rating.value:.0f} %" if rating else DASH
+    unit = "N m" if joint.revolute else "N"
+    outer = number(float(found.outer[index]), 3)
+    return (str(index + 1), joint.name, unit, outer, weight, number(total, 3), rated, share)
+
+
+def _weight(robot: Robot) -> Iterator[Block]:
+    sources = tuple(dict.fromkeys(mass.source for mass in robot.masses if mass.source))
+    if any(mass.assumed for mass in robot.masses):
+        yield Paragraph("The masses behind the column “own weight” are assumed, not measured:", "note")
+        yield Items(sources)
