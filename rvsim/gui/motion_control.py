@@ -152,7 +152,7 @@ class MotionControl(QObject):
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         """Somebody else edits, or undoes: hold the motion; another arm: take the trajectory out.
 
-        What the arm has to hold may change while it moves.
+        What the arm has to hold may change while it moves, and notes may be written.
         """
         if after.robot.name != before.robot.name:
             self.opening_at = _open
@@ -160,9 +160,15 @@ class MotionControl(QObject):
             return
         if after.robot is not before.robot:
             self.load(None, "")
-        elif after.load is before.load or after.q is not before.q:
+        elif not _is_beside(before, after):
             self.pause()
 
     def _on_preference(self, name: str) -> None:
         if name == "speed":
             self.player.speed = self._preferences["speed"]
+
+
+def _is_beside(before: Experiment, after: Experiment) -> bool:
+    """Whether the load or the notes have changed, and not the pose."""
+    others = after.load is not before.load or after.notes is not before.notes
+    return others and after.q is before.q

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import fields
 
 import numpy as np
@@ -104,6 +104,7 @@ class Session(QObject):
         self._change(text, experiment, f"{merge}#{self._merge_stroke}" if merge else "")
 
     def _change(self, text: str, experiment: Experiment, key: str) -> None:
+        experiment = self._without_old_typing(experiment)
         last = self._last_change()
         # Not by QUndoCommand.mergeWith: the stack never lets go of the Python side of the commands that it merged.
         if last is None or not last.continues(key):
@@ -118,10 +119,17 @@ class Session(QObject):
             last.setObsolete(True)
             self.undo_stack.undo()  # which takes an obsolete change out
 
+    def _without_old_typing(self, experiment: Experiment) -> Experiment:
+        """What was typed and not drawn is forgotten when the arm goes elsewhere."""
+        same = experiment.typed is self._experiment.typed
+        stale = experiment.typed is not None and same and experiment.q is not self._experiment.q
+        return experiment.with_typed(None) if stale else experiment
+
     def _last_change(self) -> _Change | None:
-        """The newest change, if nothing has been undone since."""
+        """The newest change, if nothing has been undone since and it has not been saved: a saved one stays."""
         stack = self.undo_stack
-        last = stack.command(stack.index() - 1) if stack.index() == stack.count() > 0 else None
+        open_ended = stack.index() == stack.count() > 0 and not stack.isClean()
+        last = stack.command(stack.index() - 1) if open_ended else None
         return last if isinstance(last, _Change) else None
 
     def end_stroke(self) -> None:
@@ -165,7 +173,24 @@ class Session(QObject):
             return
         self._left[self.robot.name] = self._experiment
         left = self._left.get(robot.name)
-        self.edit(f"Take the {robot.title}", left if left and left.robot is robot else self._make_experiment(robot))
+        following = left if left and left.robot is robot else self._make_experiment(robot)
+        self.edit(f"Take the {robot.title}", following.with_notes(self._experiment.notes))
+
+    def fresh(self, robot: Robot) -> Experiment:
+        """An arm as it is taken for the first time."""
+        return self._make_experiment(robot)
+
+    @property
+    def left(self) -> tuple[Experiment, ...]:
+        """The experiments of other arms, as they were left."""
+        return tuple(one for name, one in self._left.items() if name != self.robot.name)
+
+    def begin(self, experiment: Experiment, left: Iterable[Experiment] = ()) -> None:
+        """Another experiment altogether, and those left for other arms: no undo leads back."""
+        self.undo_stack.clear()
+        self._left = {one.robot.name: one for one in left}
+        self.set_tracking(None)
+        self._put(experiment)
 
     def set_tracking(self, tracking: Tracking | None) -> None:
         """Show a tracked path, or none."""

@@ -176,6 +176,16 @@ def _slider_style(color: str) -> str:
     )
 
 
+def _joint_words(robot: Robot, index: int) -> str:
+    """ "joint 3 (elbow)", or "joint 3" where its name says no more."""
+    name = robot.joint_names[index]
+    return (
+        f"joint {index + 1}"
+        if name.lower() in (f"joint {index + 1}", f"j{index + 1}")
+        else f"joint {index + 1} ({name})"
+    )
+
+
 class JointsPanel(QWidget):
     """What the arm is now. `robot_wanted(name)` tells that another arm has been chosen."""
 
@@ -185,7 +195,6 @@ class JointsPanel(QWidget):
         super().__init__(parent)
         self._session, self._preferences = session, preferences
         self._rows: list[JointRow] = []
-        self._typed: FloatArray = session.q  # what the boxes show; the arm follows at once when live, else at Plot
         self.robots = combo("robot_selector", "Arm")
         self.robots.activated.connect(lambda _: self.robot_wanted.emit(self.robots.currentData()))
         self._joints = QWidget()
@@ -201,6 +210,12 @@ class JointsPanel(QWidget):
     def sizeHint(self) -> QSize:
         """Narrow: the room belongs to the scene."""
         return QSize(280, 600)
+
+    @property
+    def _typed(self) -> FloatArray:
+        """(n,) what the boxes show; the arm follows at once when live, else at Plot."""
+        typed = self._session.experiment.typed
+        return self._session.q if typed is None else typed
 
     # --- construction ----------------------------------------------------------------------------------------------
 
@@ -296,15 +311,13 @@ class JointsPanel(QWidget):
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         if after.robot is not before.robot:
-            self._typed = after.q
             with QSignalBlocker(self.robots):
                 self.robots.setCurrentIndex(self.robots.findData(after.robot.name))
             self._make_rows()
             return
         if after.ignore_limits != before.ignore_limits:
             self._show_limits()
-        if after.q is not before.q:
-            self._typed = after.q
+        if after.q is not before.q or after.typed is not before.typed:
             self._show_pose()
         if after.poses is not before.poses:
             self._show_poses()
@@ -343,13 +356,15 @@ class JointsPanel(QWidget):
     def _on_moved(self, index: int, value: float) -> None:
         typed = np.array(self._typed)
         typed[index] = value
-        self._typed = typed
+        name = _joint_words(self._session.robot, index)
         if self._preferences["live"]:
-            name = self._session.robot.joint_names[index]
             self._session.edit(f"Move {name}", self._session.experiment.at(typed), merge=f"joint {index}")
         else:
-            self._show_pose()
-            self._session.say("Typed, not drawn yet: press Plot.")
+            self._type(f"Type {name}", typed, merge=f"type {index}")
+
+    def _type(self, text: str, typed: FloatArray, merge: str = "") -> None:
+        self._session.edit(text, self._session.experiment.with_typed(typed), merge=merge)
+        self._session.say("Typed, not drawn yet: press Plot.")
 
     def _on_pose(self, values: tuple[float, ...]) -> None:
         """All joints at once, in the shown units."""
@@ -361,10 +376,8 @@ class JointsPanel(QWidget):
         q = np.divide(values, factors)
         if self._preferences["live"]:
             self._session.move_to(q, "Paste pose")
-            return
-        self._typed = q
-        self._show_pose()
-        self._session.say("Typed, not drawn yet: press Plot.")
+        else:
+            self._type("Type a pose", q)
 
     def _on_ignore(self, on: bool) -> None:
         text = "Ignore limits" if on else "Respect limits"
@@ -372,7 +385,8 @@ class JointsPanel(QWidget):
 
     def plot_typed(self) -> None:
         """Draw the arm at the typed values."""
-        if not np.array_equal(self._typed, self._session.q) and not self._session.move_to(self._typed, "Plot"):
+        typed = self._session.experiment.typed
+        if typed is not None and not self._session.move_to(typed, "Plot the typed values"):
             return
         names = ", ".join(
             f"{format_number(value * display(joint_kind(self._session.robot, i), self._preferences).factor, 1)}"
@@ -382,16 +396,16 @@ class JointsPanel(QWidget):
 
     def go_home(self) -> None:
         """Go to the arm's home pose."""
-        if self._session.move_to(self._session.robot.home, "Home"):
+        if self._session.move_to(self._session.robot.home, "Go home"):
             self._session.say(f"The {self._session.robot.title} is at home.")
 
     def go_zero(self) -> None:
         """Go to q = 0, if the limits allow it."""
-        self._session.move_to(np.zeros(self._session.robot.dof), "Zero")
+        self._session.move_to(np.zeros(self._session.robot.dof), "Go to zero")
 
     def go_random(self) -> None:
         """Go to any pose within the limits."""
-        self._session.move_to(random_pose(self._session.robot, secrets.randbits(64)), "Random pose")
+        self._session.move_to(random_pose(self._session.robot, secrets.randbits(64)), "Go to a random pose")
 
     def ask_pose_name(self) -> None:
         """Save the present pose under a name that the user types."""
@@ -409,7 +423,7 @@ class JointsPanel(QWidget):
         if row == 0:
             return
         pose = self._session.experiment.poses[row - 1]
-        self._session.move_to(pose.q, f"Pose {pose.name}")
+        self._session.move_to(pose.q, f"Go to pose {pose.name}")
 
     def _forget(self) -> None:
         name = self.poses.currentText()
