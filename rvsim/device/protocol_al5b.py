@@ -92,6 +92,8 @@ class Serial(SerialBase):  # type: ignore[misc]
         with self._changed:
             if not self.is_open:
                 return
+            if self._time is not None:
+                self._time.tell(self.clock.now())  # what has arrived by now has arrived
             self.is_open, self._wire = False, None
             leave_board(self._options, self.clock.now())
             self._changed.notify_all()

@@ -82,7 +82,7 @@ class Conversation:
         self._board = self._notice = ""
         self._clamped: tuple[str, ...] = ()
         self._dropped = 0
-        self._report = self._at_ask = np.full(self._m, np.nan)
+        self._report = np.full(self._m, np.nan)
         self._reported_at = -math.inf
         self._rests: FloatArray | None = None  # where the board says the axes stand after a stop
         self._measured = np.full(self._m, np.nan)
@@ -195,6 +195,10 @@ class Conversation:
         """What is to be written at once, after what waits in the system's buffers has been thrown away. Mostly None."""
         return self._wire.urgent()
 
+    def last_words(self) -> bytes:
+        """A stop for all axes, whatever this conversation has come to: for who must leave the arm without it."""
+        return self._language.stop((True,) * self._m)[0]
+
     def lose(self, sentence: str) -> None:
         """The port is gone, or could not be opened."""
         now = self._wire.now
@@ -212,7 +216,6 @@ class Conversation:
             return
         busy = self._motion is not None or self._moving
         if self._wire.questions.may_ask(self._wire.now, _BUSY if busy else _IDLE, not self._language.named_answers):
-            self._at_ask = self._belief.at(self._wire.now)
             self._wire.ask(self._language.poll() if self._board else self._language.hello())
 
     def _say_order(self) -> bool:
@@ -379,9 +382,14 @@ class Conversation:
         return shown(self._robot, axis, value) if axis < self._robot.dof else f"{100.0 * value:.0f} % open"
 
     def _check_rest(self, raw: FloatArray) -> None:
-        """After a stop: where the axes stand. Where they still move the stop has not arrived, and is said again."""
+        """After a stop: where the axes stand. Where they still move the stop has not arrived, and is said again.
+
+        Who has cut the power meanwhile has a board that knows no positions: those axes are asleep.
+        """
         if self._wire.questions.asked_at < self._wire.cut_until:
             return
+        for axis in np.flatnonzero(self._belief.awake & np.isnan(raw)).tolist():
+            self._belief.sleep(axis)
         if self._rests is None:
             self._rests = raw
             self._belief.hold(np.where(self._belief.awake, raw, np.nan))

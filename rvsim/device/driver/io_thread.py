@@ -20,6 +20,7 @@ from rvsim.device.driver import actions
 from rvsim.device.driver.actions import Action, Axis, Playable, Refusal
 from rvsim.device.driver.core import DriverCore
 from rvsim.device.driver.languages import LanguageName
+from rvsim.device.driver.outbox import BITS
 from rvsim.device.driver.state import DriverState
 from rvsim.device.wire_log import WireLog
 from rvsim.playback.recording import Recording
@@ -34,8 +35,8 @@ _logger = logging.getLogger(__name__)
 _TICK, _IDLE_TICK = 0.004, 0.02  # [s] between looks at the port: while the arm may move, and otherwise
 _SWITCH = 0.001  # [s] so soon a busy window lets this thread in; the interpreter's own 5 ms are felt at each step
 _WRITE_TIMEOUT = 0.2  # [s] pieces are so small that a port which does not take one in this time is stuck
-_LAST_WORDS = 0.1  # [s] STOP to six channels at 9600 baud takes 39 ms, and a port's buffer a little
-_CLOSING = 3.0  # [s] a close waits for the thread at most
+_BUFFERED = 0.05  # [s] what is written may lie in an adapter before it goes over the wire
+_CLOSING, _CLOSING_OPENING = 3.0, 0.2  # [s] a close waits for the thread at most; for one that only opens a port
 _MOST_READ = 4096  # bytes
 
 
@@ -75,6 +76,7 @@ class ArmDriver:
         self._began = time.monotonic()
         self._port: Any = None
         self._arm: VirtualArm | None = None
+        self._through = 0.0  # when what has been written will have gone over the wire [s]
         self._closing = False
         self._thread: threading.Thread | None = None
 
@@ -183,11 +185,11 @@ class ArmDriver:
 
     def close(self) -> None:
         """Stop what moves, close the port and end the thread; waits for it, a fraction of a second as a rule."""
+        self._do(actions.Disconnect())  # first: a thread that is to end without a stop to say would end silently
         self._closing = True
-        self._do(actions.Disconnect())
         thread = self._thread
         if thread is not None and thread is not threading.current_thread():
-            thread.join(_CLOSING)
+            thread.join(_CLOSING if self._port is not None else _CLOSING_OPENING)
         atexit.unregister(self.close)
 
     def _do(self, action: Action) -> Refusal | None:
@@ -220,6 +222,7 @@ class ArmDriver:
                 self._lose(f"The port {self.url} is lost: {problem}")
             except Exception as problem:  # whatever it is: the arm must not be left without a driver
                 _logger.exception("the driver's thread")
+                self._say_last(self._core.last_words)
                 self._lose(f"Something went wrong inside the driver: {problem!r}. The port is closed.")
             self._wake.wait(_TICK if self._state.phase not in ("disconnected", "lost") else _IDLE_TICK)
             self._wake.clear()
@@ -250,30 +253,45 @@ class ArmDriver:
         with self._lock:
             out = self._core.process(time.monotonic() - self._began, received)
             self._publish()
-        self._write_urgent()
-        if out:
-            self._port.write(out)
+        # A stop that came just now threw away what waits: these bytes too.
+        if not self._write_urgent() and out:
+            self._write(out)
 
     def _write_urgent(self) -> bool:
         with self._lock:
             first = self._core.urgent()
-        if first is None:
-            return False
-        self._port.reset_output_buffer()
-        self._port.write(first)
-        return True
+        if first is not None:
+            self._write_at_once(first)
+        return first is not None
+
+    def _write_at_once(self, data: bytes) -> None:
+        with contextlib.suppress(Exception):  # not every port can call bytes back, each must carry the stop
+            self._port.reset_output_buffer()
+        self._write(data)
+
+    def _write(self, data: bytes) -> None:
+        self._port.write(data)
+        self._through = max(self._through, time.monotonic()) + len(data) * BITS / self.baud
 
     def _leave(self) -> None:
-        """Let a last stop out, then close."""
-        with contextlib.suppress(serial.SerialException, OSError):  # it may be gone already
-            if self._write_urgent():
-                time.sleep(_LAST_WORDS)
+        self._say_last(lambda: b"")
         self._close_port()
+
+    def _say_last(self, words: Callable[[], bytes]) -> None:
+        """Let a last stop out, and these words: a port that is closed may throw away what it has not sent."""
+        with contextlib.suppress(Exception):  # it may be gone already
+            self._write_urgent()
+            if data := words():
+                self._write_at_once(data)
+            left = self._through - time.monotonic()
+            if left > 0.0:
+                time.sleep(left + _BUFFERED)
 
     def _lose(self, sentence: str) -> None:
         with self._lock:
             if self._core.wants_port:
                 self._core.lose(sentence)
+            self._core.urgent()  # nobody is there who could hear it
             self._publish()
         self._close_port()
 

@@ -9,6 +9,7 @@ import pytest
 
 from rvsim import load_robot
 from rvsim.device.driver import ArmDriver, available_ports
+from rvsim.device.driver.actions import StopAll
 from rvsim.device.virtual.faults import Fault, Faults
 
 SOON = 10.0  # [s]; what happens at once needs milliseconds
@@ -63,8 +64,71 @@ def test_a_mistake_inside_the_thread_stops_the_arm_and_not_the_thread(driver, mo
         patch.setattr(driver._core, "process", lambda *_: 1 / 0)
         assert driver.wait(lambda state: state.phase == "lost", SOON)
     assert "ZeroDivisionError" in driver.state.reason
+    assert driver.virtual.channels[0] == "holding"
     assert driver.connect() is None
     assert driver.wait(lambda state: state.phase == "asleep", SOON)
+
+
+class WrittenDown:
+    """A port, and what is written to it."""
+
+    def __init__(self, port) -> None:
+        self._port, self.written = port, []
+
+    def __getattr__(self, name):
+        return getattr(self._port, name)
+
+    def write(self, data: bytes) -> int:
+        self.written.append(bytes(data))
+        return self._port.write(data)
+
+    def reset_output_buffer(self) -> None:
+        raise ValueError("this port cannot call bytes back")
+
+
+def test_what_was_about_to_be_written_goes_down_with_the_stop(driver, monkeypatch) -> None:
+    assert driver.connect() is None
+    assert driver.wait(lambda state: state.phase == "asleep", SOON)
+    port = driver._port = WrittenDown(driver._port)
+    process = driver._core.process
+
+    def interrupted(now: float, received: bytes) -> bytes:
+        out = process(now, received)
+        if b"#0P" in out:  # another thread stops as soon as the lock is free
+            driver._core.do(StopAll())
+        return out
+
+    monkeypatch.setattr(driver._core, "process", interrupted)
+    assert driver.wake(0, 0.0) is None
+    assert driver.wait(lambda state: state.phase == "stopped", SOON)
+    assert driver.wait(lambda _: driver.reset() is None, SOON)
+    assert any(b"STOP0" in data for data in port.written)
+    assert not any(b"#0P" in data for data in port.written)
+
+
+def test_closing_at_once_after_a_stop_lets_the_stop_arrive() -> None:
+    with ArmDriver(load_robot("al5b"), "al5b://", baud=9600) as driver:
+        set_off(driver)
+        assert driver.stop() is None
+    assert driver.virtual.channels[0] == "holding"
+
+
+def test_a_stop_for_a_port_that_never_opened_does_not_bar_the_next_connection(monkeypatch) -> None:
+    opening, gate = threading.Event(), threading.Event()
+
+    def never(*_: object, **__: object) -> None:
+        opening.set()
+        gate.wait(SOON)
+        raise OSError("no such port")
+
+    monkeypatch.setattr("serial.serial_for_url", never)
+    with ArmDriver(load_robot("al5b"), "COM99") as driver:
+        assert driver.connect() is None
+        assert opening.wait(SOON)
+        assert driver.stop() is None
+        assert driver.disconnect() is None
+        gate.set()
+        assert driver.wait(lambda _: driver.connect() is None, SOON)
 
 
 def test_closing_ends_the_thread(driver) -> None:

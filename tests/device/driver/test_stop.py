@@ -99,6 +99,21 @@ def test_a_stop_that_got_lost_is_said_again(rig) -> None:
     assert np.array_equal(arm.pulses, held)
 
 
+@LANGUAGES
+def test_an_arm_whose_power_was_cut_after_the_stop_is_asleep(rig, language) -> None:
+    arm = rig(language).ready()
+    arm.done(StopAll())
+    arm.run(1.0)
+    arm.arm.power_cycle()
+    arm.run(1.0)
+    told = len(arm.board.told)
+    arm.done(Reset())
+    assert "asleep" in arm.do(MoveTo(arm.home + AWAY)).sentence
+    arm.run(1.0)
+    assert not any(entry.moves for entry in arm.board.told[told:])
+    assert arm.state.phase == "asleep"
+
+
 def test_a_second_stop_keeps_the_first_reason_and_is_said_too(rig) -> None:
     arm = started(rig())
     arm.run(0.5)
