@@ -19,18 +19,24 @@ from typing import NamedTuple
 TEXTS = Path(__file__).resolve().parent.parent / "resources" / "licences"
 _IS_TEXT = re.compile(r"(^|[/_-])(licen[cs]e|copying|notice)", re.IGNORECASE)
 _QT = ("qt.txt", "LGPL-3.0.txt", "GPL-3.0.txt", "qt-parts.txt")
-# Wheels without a licence's text, and the files in resources/licences that stand in for it.
+# What wheels lack: their licence's text, or that of a font; the files in resources/licences.
 SUPPLIED = {
     "PySide6_Essentials": _QT,
     "shiboken6": (),  # the same as PySide6
     "pyserial": ("pyserial.txt",),
     "PyOpenGL": ("PyOpenGL.txt",),
     "latex2mathml": ("latex2mathml.txt",),
+    "ziafont": ("DejaVu-Sans.txt",),
+    "ziamath": ("STIX-Two-Math.txt",),
 }
 # Where wheels say less than there is to say.
 _LICENCES = {"PySide6_Essentials": "LGPL-3.0-only", "shiboken6": "LGPL-3.0-only"}
 _HEAD = """\
-What rvsim is made of, besides its own code (MIT licence)
+What rvsim is made of, besides its own code (MIT licence); the texts of all licences follow the list.
+
+The pen's letters: the Hershey Fonts were originally created by Dr. A. V. Hershey while working at the U.S. National
+Bureau of Standards. The format of the font data from which ours was converted was originally created by James Hurt,
+Cognition, Inc., 900 Technology Park Drive, Billerica, MA 01821.
 
 """
 _LINE = "=" * 100

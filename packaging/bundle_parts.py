@@ -88,9 +88,16 @@ def is_kept(target: str, platform: str = sys.platform) -> bool:
         return _is_kept_plugin(path)
     if "translations" in path.parts and "PySide6" in path.parts:
         return path.stem in {f"qtbase_{language}" for language in _LANGUAGES}
-    if path.parts[0] in ("scipy", "scipy.libs") and len(path.parts) > 2:
+    if path.parts[0].endswith(".dist-info"):
+        return path.name == "METADATA"  # for the versions; the licences are told elsewhere
+    if path.parts[0] == "scipy" and len(path.parts) > 2:
         return path.parts[1] in SCIPY_KEPT
     return not (platform.startswith("linux") and _is_named(path, (*_SYSTEM_LIBRARIES, *_UNUSED_LIBRARIES)))
+
+
+def is_pythons_own(target: str) -> bool:
+    """Whether the file that would go there is Python's library, or a module of its standard library."""
+    return target.startswith("libpython") or "/lib-dynload/" in target
 
 
 def _is_kept_plugin(path: PurePosixPath) -> bool:

@@ -120,6 +120,7 @@ def _ending() -> str:
 
 def _archived(made: Made) -> None:
     """The folder as one file to hand out."""
+    print("Packing the folder takes another minute.", flush=True)
     kind = "zip" if sys.platform == "win32" else "xztar"
     shutil.make_archive(str(_DIST / name()), kind, root_dir=_DIST, base_dir=made.folder.name)
 

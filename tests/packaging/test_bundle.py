@@ -67,12 +67,22 @@ def test_what_is_imported_by_name_alone_is_there_to_be_put_in() -> None:
         # A wheel's own library, of whatever name.
         ("pillow.libs/libXau-154567c4.so.6.0.0", True),
         ("rvsim/_resources/robots/ur5e.toml", True),
+        ("numpy-2.4.6.dist-info/METADATA", True),
+        ("numpy-2.4.6.dist-info/RECORD", False),
     ],
 )
 def test_what_is_put_in(target: str, kept: bool) -> None:
     from bundle_parts import is_kept
 
     assert is_kept(target, "linux") is kept
+
+
+def test_only_pythons_own_libraries_are_slimmed() -> None:
+    from bundle_parts import is_pythons_own
+
+    assert is_pythons_own("libpython3.11.so.1.0")
+    assert is_pythons_own("python3.11/lib-dynload/_decimal.cpython-311-x86_64-linux-gnu.so")
+    assert not is_pythons_own("numpy.libs/libscipy_openblas64_-32a4b2a6.so")
 
 
 def test_other_systems_keep_their_libraries() -> None:
@@ -94,6 +104,7 @@ def test_every_library_that_rvsim_needs_has_its_licence_and_qt_has_the_lgpl() ->
     assert "GNU LESSER GENERAL PUBLIC LICENSE" in qt
     assert "may be replaced" in qt
     assert "code.qt.io" in qt
+    assert "OPEN FONT LICENSE" in "".join(parts["ziamath"].texts)
     assert python_part().texts
 
 
