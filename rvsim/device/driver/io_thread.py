@@ -70,8 +70,8 @@ class ArmDriver:
         self.url, self.baud, self.language = url, baud, language
         self.log = WireLog() if log is None else log
         self._core = DriverCore(robot, language=language, baud=baud, potentiometers=potentiometers, log=self.log.add)
-        self._lock, self._wake = threading.Lock(), threading.Event()
-        self._published = threading.Condition()
+        # One lock, and who holds it may take it again: a condition in `wait` may ask for something.
+        self._lock, self._wake = threading.Condition(threading.RLock()), threading.Event()
         self._state = self._core.state
         self._began = time.monotonic()
         self._port: Any = None
@@ -118,8 +118,8 @@ class ArmDriver:
 
     def wait(self, until: Callable[[DriverState], bool], seconds: float) -> bool:
         """Block until a state fulfils a condition, at most so many seconds; whether it does. Not for a window."""
-        with self._published:
-            return self._published.wait_for(lambda: until(self._state), seconds)
+        with self._lock:
+            return self._lock.wait_for(lambda: until(self._state), seconds)
 
     # --- to be asked for -------------------------------------------------------------------------------------------
 
@@ -201,8 +201,7 @@ class ArmDriver:
 
     def _publish(self) -> None:
         self._state = self._core.state
-        with self._published:
-            self._published.notify_all()
+        self._lock.notify_all()
 
     # --- the thread ----------------------------------------------------------------------------------------------
 

@@ -131,6 +131,12 @@ def test_a_stop_for_a_port_that_never_opened_does_not_bar_the_next_connection(mo
         assert driver.wait(lambda _: driver.connect() is None, SOON)
 
 
+def test_who_waits_may_ask_for_something(driver) -> None:
+    assert driver.connect() is None
+    assert driver.wait(lambda _: len([driver.hold() for _ in range(2000)]) > 0, SOON)
+    assert driver.wait(lambda state: state.phase == "asleep", SOON)
+
+
 def test_closing_ends_the_thread(driver) -> None:
     set_off(driver)
     driver.close()
