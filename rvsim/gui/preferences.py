@@ -37,6 +37,8 @@ SETTINGS: dict[str, Setting] = {
     "plots": Setting("q,qd,deviation"),
     "renderer": Setting("auto", ("auto", "gl", "painter")),
     "robot": Setting("rv-m1"),
+    "student": Setting(""),
+    "recent": Setting(""),  # session files, one a line, the last used one first
     "tour_seen": Setting(False),
     "speed": Setting(1.0, (0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0)),
 }
