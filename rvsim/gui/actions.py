@@ -34,6 +34,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("save_motion_si", "&File", "Save motion as CSV in SI…", "The same in radians and metres", "Ctrl+Alt+E"),
     ActionSpec("save_script", "&File", "Save as Python script…", "Works it out anew with NumPy alone", "Ctrl+Alt+P"),
     ActionSpec("save_animation", "&File", "Save animation…", "The motion as GIF, APNG or WebP", "Ctrl+Alt+A"),
+    ActionSpec("lab_report", "&File", "Lab report…", "A report of this experiment, as HTML and PDF", "Ctrl+Alt+L"),
     ActionSpec("import_table", "&File", "Import joints or points…", "From a CSV file", "Ctrl+Alt+I", before=True),
     ActionSpec("open_program", "&File", "Open program…", "Read a program of moves", "Ctrl+Alt+O"),
     ActionSpec("save_program", "&File", "Save program as…", "Write the program of moves", "Ctrl+Alt+S"),

@@ -95,6 +95,7 @@ class Commands(QObject):
             "save_motion_si": lambda: self.save_motion("si"),
             "save_script": self.save_script,
             "save_animation": self.save_animation,
+            "lab_report": self.lab_report,
             "import_table": self.import_table,
             "open_program": lambda: self._program().ask_open(),
             "save_program": lambda: self._program().ask_save(),
@@ -188,6 +189,12 @@ class Commands(QObject):
         from rvsim.gui.exports import ask_script
 
         ask_script(self._window, self._session, self._window.motion)
+
+    def lab_report(self) -> None:
+        """Ask how the present experiment is to be reported."""
+        from rvsim.gui.report.ask import ask_report
+
+        ask_report(self._window)
 
     def import_table(self) -> None:
         """Ask for a file of joints or points, and how its columns are meant."""

@@ -20,39 +20,66 @@ Page = tuple[Placed, ...]
 
 def paginated(strips: Iterable[Strip], height: float, first: float = 0.0) -> tuple[Page, ...]:
     """Pages of that height; the first one begins `first` below its margin."""
-    pages: list[list[Placed]] = [[]]
-    y = first
+    book = _Book(height, first)
     for chain in _chains(strips):
-        needed = sum(strip.height + strip.above for strip in chain)
-        if pages[-1] and y + needed > height and _fits(chain, height):
-            pages.append([])
+        book.add(chain)
+    book.flush()
+    return tuple(tuple(page) for page in book.pages if page)
+
+
+class _Book:
+    """Pages that are being filled, and the figures that wait for the next one."""
+
+    def __init__(self, height: float, first: float) -> None:
+        self.pages: list[list[Placed]] = [[]]
+        self._height, self._y = height, first
+        self._waiting: list[list[Strip]] = []
+
+    def add(self, chain: list[Strip]) -> None:
+        """Put a chain on this page, or the next; figures stay in their order."""
+        if self._has_room(chain) and not (self._waiting and chain[0].floats):
+            self._put(chain)
+        elif chain[0].floats:
+            self._waiting.append(chain)
+        else:
+            self._turn()
+            while self._waiting and self._has_room(self._waiting[0]):
+                self._put(self._waiting.pop(0))
+            if not self._has_room(chain) and self.pages[-1]:
+                self._turn()
+            self._put(chain)
+
+    def flush(self) -> None:
+        """What waits, on pages of its own."""
+        while self._waiting:
+            if not self._has_room(self._waiting[0]) and self.pages[-1]:
+                self._turn()
+            self._put(self._waiting.pop(0))
+
+    def _has_room(self, chain: list[Strip]) -> bool:
+        needed = sum(strip.height + strip.above for strip in chain) - (0.0 if self.pages[-1] else chain[0].above)
+        return self._y + needed <= self._height or needed > self._height  # what fits on no page is cut anywhere
+
+    def _turn(self) -> None:
+        self.pages.append([])
+        self._y = 0.0
+
+    def _put(self, chain: list[Strip]) -> None:
         for strip in chain:
-            y = _end(pages[-1], first if len(pages) == 1 else 0.0)
-            if pages[-1] and y + strip.above + strip.height > height:
-                pages.append([])
-                y = 0.0
-            y = _put(pages[-1], strip, y)
-    return tuple(tuple(page) for page in pages if page)
+            if self.pages[-1] and self._y + strip.above + strip.height > self._height:
+                self._turn()
+            self._put_strip(strip)
 
-
-def _end(page: list[Placed], first: float) -> float:
-    return page[-1].y + page[-1].strip.height if page else first
-
-
-def _put(page: list[Placed], strip: Strip, y: float) -> float:
-    """Below what is there; at the top without the space above it, but with its head."""
-    if not page:
-        for head in strip.again:
-            page.append(Placed(y, head))
-            y += head.height
-    else:
-        y += strip.above
-    page.append(Placed(y, strip))
-    return y + strip.height
-
-
-def _fits(chain: list[Strip], height: float) -> bool:
-    return sum(strip.height + strip.above for strip in chain) - chain[0].above <= height
+    def _put_strip(self, strip: Strip) -> None:
+        """Below what is there; at the top without the space above it, but with its head."""
+        page = self.pages[-1]
+        if page:
+            self._y += strip.above
+        for head in strip.again if not page else ():
+            page.append(Placed(self._y, head))
+            self._y += head.height
+        page.append(Placed(self._y, strip))
+        self._y += strip.height
 
 
 def _chains(strips: Iterable[Strip]) -> Iterator[list[Strip]]:

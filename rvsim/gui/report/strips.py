@@ -51,6 +51,7 @@ class Strip(NamedTuple):
         above: the space above it, which the top of a page swallows.
         keep: not parted from the next one.
         again: what is repeated above it where a page begins with it.
+        floats: may be put on the next page while what follows fills this one.
     """
 
     height: float
@@ -58,6 +59,7 @@ class Strip(NamedTuple):
     above: float = 0.0
     keep: bool = False
     again: tuple[Strip, ...] = ()
+    floats: bool = False
 
 
 def section_strips(section: Section, width: float) -> Iterator[Strip]:
@@ -225,9 +227,9 @@ def _figure(block: Figure, width: float) -> Iterator[Strip]:
     for number, picture in enumerate(block.pictures):
         above = 14.0 if number == 0 else 8.0
         strip = _chart(picture, width) if isinstance(picture, Chart) else _picture(picture, width)
-        yield strip._replace(above=above, keep=number == len(block.pictures) - 1)
+        yield strip._replace(above=above, keep=number == len(block.pictures) - 1, floats=len(block.pictures) == 1)
     caption = Text(caption_runs(block.caption), faces.CAPTION, width)
-    yield Strip(caption.height, caption.draw, 6.0)
+    yield Strip(caption.height, caption.draw, 6.0, keep=True)
     yield Strip(0.0, _nothing, 8.0)
 
 

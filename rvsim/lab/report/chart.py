@@ -14,10 +14,11 @@ from rvsim.robot.arrays import FloatArray
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _AIR = 0.06  # above and below the curves, of their height
 _MOST_POINTS = 400
+DASHES = 5  # ways to draw a line: none, long, short, dash and dot, dash and two dots
 
 
 class Curve(NamedTuple):
-    """A curve: its name, "#rrggbb", x and y (m,) with NaN for gaps, and how it is dashed: 0 not, 1 long, 2 short."""
+    """A curve: its name, "#rrggbb", x and y (m,) with NaN for gaps, and the number of its dashes, 0 for none."""
 
     name: str
     color: str

@@ -13,9 +13,9 @@ from rvsim.robot.arrays import FloatArray
 WIDTH = 453.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 50.0, 8.0, 18.0, 30.0
 _LEGEND_ROW, _LEGEND_STROKE, _LETTER = 12.0, 18.0, 4.2
-_DASHES = ("", ' stroke-dasharray="6 3"', ' stroke-dasharray="2 2"')
+_DASHES = ("", *(f' stroke-dasharray="{d}"' for d in ("6 3", "2 2", "8 2.5 2 2.5", "8 2 2 2 2 2")))
 _INK, _MUTED, _GRID = "#1D2733", "#4A5665", "#DFE5ED"
-_FONTS = "Helvetica, Arial, 'Liberation Sans', 'Nimbus Sans', 'DejaVu Sans', sans-serif"
+_FONTS = "Helvetica, Arial, Liberation Sans, Nimbus Sans, DejaVu Sans, sans-serif"
 _HATCH, _HATCH_STEP = 3.0, 9.0
 
 

@@ -34,7 +34,7 @@ def end_section(study: Study, files: Mapping[str, str]) -> Section:
     lengths = "the arm’s own unit" if study.robot.length_unit == "unit" else _LENGTHS[study.units.length]
     conventions = (
         f"Angles are shown in {angles}, lengths in {lengths}; inside, everything is computed in radians and metres.",
-        "ᵃTᵦ maps coordinates of frame b to those of frame a; in a product neighbouring frames cancel.",
+        "A transform with a above and b below maps coordinates of frame b to frame a; neighbours cancel in a product.",
         "Twists and wrenches have their linear part first; the Jacobian is geometric, at the tool, in base axes.",
         "Roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll). Quaternions have w first, and w ≥ 0.",
     )

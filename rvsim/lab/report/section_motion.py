@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from rvsim.lab.report.chart import Chart, Curve, Limit
+from rvsim.lab.report.chart import DASHES, Chart, Curve, Limit
 from rvsim.lab.report.figures import Measure, Measures, number
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Figure, Paragraph, Section
@@ -18,6 +18,10 @@ from rvsim.scene.primitives import Color
 
 AXIS_COLORS = ("#D55E00", "#009E73", "#0072B2")  # Okabe and Ito
 _TOOL_COLOR, _OFF_COLOR = "#0072B2", "#B5179E"
+_OFF_WORDS = (
+    "How far the tool is from the straight pieces between the points of the path: at the points nothing but rounding, "
+    "between them a little, for there the joints follow a spline."
+)
 _TIME = "time [s]"
 _LIGHTEST = 0.4  # luminance of a curve on white
 # A level deviation of rounding is written in the unit that shows it.
@@ -41,8 +45,7 @@ def _figures(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> It
     yield Figure("Where the tool is, and where the path wants it (dashed).", (_place(curves, measures, marks),))
     if curves.deviation is not None:
         yield Figure(
-            "How far the tool is from the straight pieces between the points of the path: at the points nothing but rounding, "
-            "between them a little, for there the joints follow a spline.",
+            _OFF_WORDS,
             (_deviation(curves, measures, marks),),
         )
     yield Figure(
@@ -51,11 +54,12 @@ def _figures(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> It
 
 
 def _joint_chart(curves: Curves, measures: Measures, order: int, marks: tuple[float, ...]) -> Chart:
-    values = (curves.q, curves.qd, curves.qdd)[order]
+    found = (curves.q, curves.qd, curves.qdd)[order]
     below = ("", "/s", "/s²")[order]
     shown = [measures.joint(index).per(below) for index in range(curves.robot.dof)]
+    values = [found[:, i] * measure.factor for i, measure in enumerate(shown)]
     lines = tuple(
-        Curve(f"J{i + 1} {joint.name}", paper_color(joint.color), curves.times, values[:, i] * shown[i].factor, i % 3)
+        Curve(f"J{i + 1} {joint.name}", paper_color(joint.color), curves.times, values[i], i % DASHES)
         for i, joint in enumerate(curves.robot.joints)
     )
     unit = ", ".join(dict.fromkeys(each.unit for each in shown))
