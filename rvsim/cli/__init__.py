@@ -12,8 +12,8 @@ import sys
 from collections.abc import Callable, Sequence
 
 from rvsim import __version__
-from rvsim.cli import arm, arms, paths, self_test
-from rvsim.cli.arguments import Parser, joined_values
+from rvsim.cli import arm, arms, paths, report, self_test
+from rvsim.cli.arguments import Parser, joined_values, named_session
 from rvsim.cli.outcome import BAD_INPUT, DONE, FAILED, InputError
 from rvsim.cli.output import speak_any_encoding
 from rvsim.cli.window import add_window_options, open_window
@@ -21,14 +21,15 @@ from rvsim.errors import RvsimError
 
 __all__ = ["BAD_INPUT", "DONE", "FAILED", "InputError", "main"]
 
-_COMMANDS = (*arms.COMMANDS, *paths.COMMANDS, *arm.COMMANDS, *self_test.COMMANDS)
+_COMMANDS = (*arms.COMMANDS, *paths.COMMANDS, *report.COMMANDS, *arm.COMMANDS, *self_test.COMMANDS)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Do what the arguments say; the exit status."""
     speak_any_encoding()
     try:
-        options = _parser().parse_args(joined_values(sys.argv[1:] if arguments is None else arguments))
+        given = sys.argv[1:] if arguments is None else arguments
+        options = _parser().parse_args(joined_values(named_session(given)))
         job: Callable[[argparse.Namespace], int] = options.job
         return job(options)
     except BrokenPipeError:  # the reader has seen enough, as in `rvsim robots | head -1`

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
+from functools import lru_cache
 from html import escape
 
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice
@@ -53,8 +54,13 @@ class PageArtist:
 
     def picture(self, picture: ScenePicture) -> str:
         """A PNG as a data URI."""
-        image = scene_image(picture.scene, picture.camera, picture.width, picture.height, _SHARPER)
-        return f"data:image/png;base64,{b64encode(png(image)).decode()}"
+        return f"data:image/png;base64,{b64encode(png(painted(picture))).decode()}"
+
+
+@lru_cache(maxsize=8)
+def painted(picture: ScenePicture) -> QImage:
+    """The picture, as fine as paper wants it; the page and the sheets of a report share it."""
+    return scene_image(picture.scene, picture.camera, picture.width, picture.height, _SHARPER)
 
 
 def png(image: QImage) -> bytes:

@@ -172,7 +172,8 @@ def _script(study: Study) -> bytes:
 
 
 def _page(document: Document, file: Path) -> Iterator[Progress]:
-    parts, total = [], len(document.sections) + 2
+    parts, total = [], sum(1 for _ in document.blocks()) + 2 * len(document.sections) + 3
+    yield Progress(0.0, "Drawing the page")
     for number, part in enumerate(html_parts(document, PageArtist())):
         parts.append(part)
         yield Progress(number / total, "Drawing the page")

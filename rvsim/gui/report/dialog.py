@@ -108,7 +108,7 @@ class ReportDialog(QDialog):
         column.addWidget(self._parts_group())
         column.addWidget(self.status)
         column.addLayout(self._buttons())
-        self.setMinimumWidth(560)
+        self.setMinimumWidth(620)
 
     def _parts_group(self) -> QGroupBox:
         group = QGroupBox("What is in it")
@@ -222,7 +222,7 @@ class ReportDialog(QDialog):
         self._tell(f"Made: {self._done}{archive}.", "muted")
         self._session.say(f"Saved the report in {self._done}.")
         self.open_button.setVisible(True)
-        self.cancel_button.setText("Close")
+        self.folder_box.setText(str(free_folder(self._done.parent, self._done.name)))  # for the next one
 
     def _show_working(self, working: bool) -> None:
         self.progress.setVisible(working)

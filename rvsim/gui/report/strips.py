@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from PySide6.QtCore import QByteArray, QPointF, QRectF
-from PySide6.QtGui import QPainter, QPen
+from PySide6.QtGui import QImage, QPainter, QPen
 from PySide6.QtSvg import QSvgRenderer
 
 from rvsim.gui.formula import Typeset, plain_text, typeset
-from rvsim.gui.renderers.painter import scene_image
 from rvsim.gui.report import typography as faces
+from rvsim.gui.report.artist import painted
 from rvsim.gui.report.typography import ACCENT, INK, Face, Text
 from rvsim.lab.report.chart import Chart
 from rvsim.lab.report.chart_svg import chart_height, chart_svg
@@ -34,7 +34,6 @@ FORMULA_SIZE = 10.5
 _SET_AT = 16.0  # what formulas are set at
 _INDENT, _LABEL, _GAP, _APART = 20.0, 44.0, 9.0, 28.0
 _PICTURE_SHARE = 0.82  # of the width
-_PICTURE_SHARPER = 2.2
 _FACES = {"body": faces.BODY, "note": faces.NOTE, "lead": faces.LEAD, "own": faces.BODY}
 
 _LED_TO = (Formula, Formulas, Items)  # what the paragraph before speaks of
@@ -258,7 +257,7 @@ def _picture(picture: ScenePicture, width: float) -> Strip:
     height = wide * picture.height / picture.width
 
     def draw(painter: QPainter, x: float, y: float) -> None:
-        image = scene_image(picture.scene, picture.camera, picture.width, picture.height, _PICTURE_SHARPER)
+        image = QImage(painted(picture))
         image.setDevicePixelRatio(1.0)
         box = QRectF(QPointF(x + 0.5 * (width - wide), y), QPointF(x + 0.5 * (width + wide), y + height))
         painter.drawImage(box, image)

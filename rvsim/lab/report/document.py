@@ -36,17 +36,17 @@ def _always(_study: Study) -> bool:
 
 
 PARTS: tuple[Part, ...] = (
-    Part("robot", "The robot: DH table, limits, sources", _always),
+    Part("robot", "The robot: DH table and limits", _always),
     Part("pose", "Forward kinematics with all matrices", _always),
     Part("inverse", "Inverse kinematics: all branches", _always),
-    Part("steps", "Inverse kinematics: the closed form step by step", lambda study: study.inverse is not None),
+    Part("steps", "Inverse kinematics, step by step", lambda study: study.inverse is not None),
     Part("jacobian", "Jacobian and singularities", _always),
     Part("torques", "Forces and torques", _always),
     Part("path", "The path and its check", lambda study: study.tracking is not None),
     Part("motion", "Curves over time", lambda study: study.trajectory is not None),
     Part(
         "measured",
-        "On the arm: desired, commanded, measured",
+        "On the arm: sent and measured",
         lambda study: study.recording is not None and not study.recording.empty,
     ),
     Part("sources", "Errata of the sources", lambda study: bool(errata(study.robot))),

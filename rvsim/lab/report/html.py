@@ -52,7 +52,7 @@ def html_page(document: Document, artist: Artist) -> str:
 
 
 def html_parts(document: Document, artist: Artist) -> Iterator[str]:
-    """The same, one section at a time: drawing takes a while."""
+    """The same, one block at a time: drawing takes a while."""
     cover = document.cover
     yield (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8"/>\n'
@@ -61,7 +61,7 @@ def html_parts(document: Document, artist: Artist) -> Iterator[str]:
     )
     yield _head(document)
     for section in document.sections:
-        yield _section(section, artist)
+        yield from _section(section, artist)
     yield f"</main>\n{artist.symbols()}\n</body>\n</html>\n"
 
 
@@ -79,10 +79,12 @@ def _lines(text: str) -> list[str]:
     return [line.strip() for line in text.splitlines() if line.strip()]
 
 
-def _section(section: Section, artist: Artist) -> str:
-    blocks = "".join(_BLOCKS[type(block)](block, artist) for block in section.blocks)
-    title = f'<span class="number">{section.number}</span> {escape(section.title)}'
-    return f"<section>\n<h2>{title}</h2>\n{blocks}</section>\n"
+def _section(section: Section, artist: Artist) -> Iterator[str]:
+    number = f'<span class="number">{section.number}</span>'
+    yield f"<section>\n<h2>{number} {escape(section.title)}</h2>\n"
+    for block in section.blocks:
+        yield _BLOCKS[type(block)](block, artist)
+    yield "</section>\n"
 
 
 def _words(words: Words, artist: Artist) -> str:
