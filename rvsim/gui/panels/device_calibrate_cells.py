@@ -36,8 +36,8 @@ SERVO_COLUMNS = (
 )
 GRIPPER_COLUMNS = (
     Column("channel", "ch", "Channel of the controller, 0 to 31"),
-    Column("open_us", "open µs", "Pulse at which the gripper is open [µs]"),
-    Column("closed_us", "closed µs", "Pulse at which the gripper is closed [µs]"),
+    Column("open_us", "open", "Pulse at which the gripper is open [µs]"),
+    Column("closed_us", "closed", "Pulse at which the gripper is closed [µs]"),
 )
 Wiring = tuple[tuple[Servo, ...], GripperServo | None]
 

@@ -14,7 +14,8 @@ from rvsim.gui.panels.device_calibrate_flow import at_part, current_part, left_o
 from rvsim.gui.panels.device_calibrate_jog import Jog, Part, pulse_for
 from rvsim.robot.arrays import FloatArray
 
-_SAMPLES = 7  # of a joint
+_STEPS = 5  # from one pose to the other
+_SAMPLES = 2 * _STEPS - 1  # there and back
 _MARGIN = 0.1  # of the way, kept at both ends: a stop of the real servo may lie before the pose
 _STILL = 1e-4  # [rad, m] between two looks
 _LOOKS = 4  # in a row without a change: the arm stands
@@ -98,7 +99,7 @@ class Sweep(QObject):
         if current_part(self._wizard) != joints[0]:
             self._wizard = at_part(self._wizard, joints[0])
         first, second = pose_steps(self._wizard)
-        self._joint = _Joint(joints[0], iter(_between(first.expected_us or 0.0, second.expected_us or 0.0)))
+        self._joint = _Joint(joints[0], iter(_there_and_back(first.expected_us or 0.0, second.expected_us or 0.0)))
         self._go(near_pulses(self._wizard))
 
     def _go(self, pulses_us: dict[Part, float]) -> None:
@@ -149,10 +150,11 @@ class Sweep(QObject):
         self._next_joint()
 
 
-def _between(first_us: float, second_us: float) -> list[float]:
-    """Whole pulses from one pose to another [µs], not quite."""
+def _there_and_back(first_us: float, second_us: float) -> list[float]:
+    """Whole pulses between two poses [µs]: servos stop a little short of where they are sent, on either way."""
     margin = _MARGIN * (second_us - first_us)
-    return [round(pulse) for pulse in np.linspace(first_us + margin, second_us - margin, _SAMPLES).tolist()]
+    there = [round(pulse) for pulse in np.linspace(first_us + margin, second_us - margin, _STEPS).tolist()]
+    return [*there, *there[-2::-1]]
 
 
 def near_pulses(wizard: CalibrationWizard) -> dict[Part, float]:

@@ -7,7 +7,7 @@ from datetime import date
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
-from PySide6.QtGui import QFont, QGuiApplication
+from PySide6.QtGui import QFont, QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import QHeaderView, QTableView, QVBoxLayout, QWidget
 
 from rvsim.errors import RvsimError
@@ -31,7 +31,17 @@ from rvsim.gui.panels.device_calibrate_cells import (
 from rvsim.gui.panels.folding_row import FoldingGrid
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.number_cells import make_editable
-from rvsim.gui.panels.tables import CELL_MARGIN, LEFT, RIGHT, Index, decimals_that_fit, dot, fit_height, plain_table
+from rvsim.gui.panels.tables import (
+    CELL_MARGIN,
+    LEFT,
+    RIGHT,
+    Index,
+    decimals_that_fit,
+    dot,
+    fit_height,
+    plain_table,
+    text_metrics,
+)
 from rvsim.gui.session import Session
 from rvsim.gui.widgets import button
 from rvsim.robot import GripperServo, Robot, Servo
@@ -39,9 +49,11 @@ from rvsim.robot import GripperServo, Robot, Servo
 _TOP = QModelIndex()
 _Role = Qt.ItemDataRole
 _SWAPPED = (4, 5)
+_FIRST_WIDE = 3  # columns before it hold a letter or two
+_ENDS = (5, 6)
 _ABOUT = (
-    "Every number can be typed over. Italics are assumed. What is calibrated here lives in the arm of this window; "
-    "save it as a robot file, or it is gone when the window closes."
+    "Pulses in µs; every number can be typed over, italics are assumed. What is calibrated here lives in the arm of "
+    "this window: save it as a robot file, or it is gone when the window closes."
 )
 
 
@@ -174,6 +186,7 @@ class ServoTables(QWidget):
         self._session, self._device = session, device
         self.servos, self.gripper = ServosModel(SERVO_COLUMNS), ServosModel(GRIPPER_COLUMNS)
         self.table = _table("calibrate_table", "Servos of the joints", self.servos)
+        self.ends_table = _table("calibrate_ends_table", "Shortest and longest pulses", self.servos)
         self.gripper_table = _table("calibrate_gripper_table", "Servo of the gripper", self.gripper)
         self.swap = button(
             "calibrate_swap", "Swap channels 4 and 5", "Some arms have the gripper on 5 and the wrist's turn on 4",
@@ -190,7 +203,7 @@ class ServoTables(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
         one_click = FoldingGrid((self.swap, self.turn), 6)
-        for widget in (about, self.table, self.gripper_table, one_click, self.origin):
+        for widget in (about, self.table, self.ends_table, self.gripper_table, one_click, self.origin):
             column.addWidget(widget)
         self.servos.edited.connect(self._on_edited)
         self.gripper.edited.connect(self._on_gripper_edited)
@@ -199,12 +212,28 @@ class ServoTables(QWidget):
         """Show the servos of an arm."""
         self.servos.show_robot(robot)
         self.gripper.show_robot(robot)
-        for table in (self.table, self.gripper_table):
+        self._fold()
+        for table in (self.table, self.ends_table, self.gripper_table):
             fit_height(table)
         self.gripper_table.setVisible(robot.gripper_servo is not None)
         self.turn.setVisible(robot.gripper_servo is not None)
         self.swap.setEnabled(any(on_channel(robot, channel) for channel in _SWAPPED))
         self.origin.setText("\n".join(origins(robot)))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Another width."""
+        super().resizeEvent(event)
+        self._fold()
+
+    def _fold(self) -> None:
+        """Both ends in a table of their own where the numbers would be cut."""
+        room = self.width() - sum(self.table.columnWidth(column) for column in range(_FIRST_WIDE))
+        number = text_metrics().horizontalAdvance("00000") + CELL_MARGIN
+        folded = room < number * (1 + len(SERVO_COLUMNS) - _FIRST_WIDE)
+        for column in range(1, 1 + len(SERVO_COLUMNS)):
+            self.table.setColumnHidden(column, folded and column in _ENDS)
+            self.ends_table.setColumnHidden(column, column not in _ENDS)
+        self.ends_table.setVisible(folded)
 
     def _on_edited(self, joint: int, key: str, text: str) -> None:
         robot = self._session.robot
@@ -234,7 +263,9 @@ class ServoTables(QWidget):
 
 def _table(name: str, title: str, model: ServosModel) -> QTableView:
     table = plain_table(name, title, model)
-    table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+    narrow = range(_FIRST_WIDE if model.columnCount() > len(GRIPPER_COLUMNS) + 1 else 1)
+    for column in narrow:
+        table.horizontalHeader().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
     make_editable(table, f"{name}_editor")
     table.horizontalHeader().sectionResized.connect(lambda column, _, width: model.give_room(column, width))
     return table
