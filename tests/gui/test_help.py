@@ -99,6 +99,14 @@ def test_every_formula_is_set_and_fits_a_narrow_window() -> None:
             assert made.width < WIDEST * SIZE / 16.0, (page.name, latex)
 
 
+def test_no_page_scrolls_sideways(window: MainWindow) -> None:
+    shown = show_help(window, INDEX)
+    shown.resize(480, 500)
+    for name in PAGES:
+        shown.show_page(name)
+        assert shown.browser.horizontalScrollBar().maximum() == 0, name
+
+
 # --- the examples ------------------------------------------------------------------------------------------------
 
 
@@ -213,6 +221,8 @@ def test_the_search_finds_all_words_and_opens_where_they_stand(qtbot: QtBot, win
     shown.words.returnPressed.emit()
     assert shown.place.page == search("gimbal lock")[0].section.page
     assert shown.browser.extraSelections()
+    assert shown.browser.verticalScrollBar().value() > 0
+    assert "&#" not in shown.browser.toPlainText()
     qtbot.keyClicks(shown.words, " <b>$`*")
     assert "Nothing found" in shown.browser.toPlainText()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from PySide6.QtCore import QUrl
-from PySide6.QtGui import QImage, QTextCharFormat, QTextCursor, QTextDocument
+from PySide6.QtGui import QGuiApplication, QImage, QTextCharFormat, QTextCursor, QTextDocument
 from PySide6.QtWidgets import QTextBrowser, QTextEdit
 
 from rvsim.gui.help.document import SCHEME, Look, dress, formula_image, prepared
@@ -37,6 +37,7 @@ class HelpBrowser(QTextBrowser):
         self.document().setDocumentMargin(_MARGIN)
         self.document().setMarkdown(page.markdown, QTextDocument.MarkdownFeature.MarkdownDialectGitHub)
         dress(self.document(), self._look())
+        self.document().size()  # lays all of it out: else there would be nowhere to scroll to yet
         self.moveCursor(QTextCursor.MoveOperation.Start)
 
     def loadResource(self, _kind: int, name: QUrl | str) -> Any:
@@ -48,7 +49,7 @@ class HelpBrowser(QTextBrowser):
         return QImage()
 
     def _look(self) -> Look:
-        colors = self.palette()
+        colors = QGuiApplication.palette()  # the style sheet gives the browser's own one other grounds
         return Look(
             self.font(), colors.text().color(), colors.mid().color(), colors.window().color(), self.devicePixelRatioF()
         )

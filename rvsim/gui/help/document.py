@@ -44,10 +44,12 @@ SCHEME = "math:"
 _FENCE = re.compile(r"^```math\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _CODE = re.compile(r"(^```.*?^```$|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
 _INLINE = re.compile(r"\$([^$\n]+)\$")
+_MARKS = re.compile(r"[^\w\s=+()/.,°·√×−]")  # others would be marks of Markdown, and break the words into pieces
 _RELATIVE_SIZE = 1.16  # the letters of formulas are small for their size
 _LARGER = {1: 2, 2: 1}  # headings, in steps of a fifth or so
 _TRY = "▶"  # begins an example
-_INDENT = 20.0
+_INDENT, _FLAT = 20.0, 4.0  # [pixels]
+_TABLE = 99.0  # per cent of the width
 
 
 class Look(NamedTuple):
@@ -73,7 +75,7 @@ def prepared(source: str) -> Prepared:
 
     def picture(latex: str) -> str:
         formulas.append(latex.strip())
-        words = re.sub(r"[\[\]|*_`]", " ", plain_text(latex.strip()))
+        words = _MARKS.sub(" ", plain_text(latex.strip()))
         return f"![{words}]({SCHEME}{len(formulas) - 1})"
 
     def block(found: re.Match[str]) -> str:
@@ -137,6 +139,7 @@ def _pixels(font: QFont) -> float:
 
 def dress(document: QTextDocument, look: Look) -> None:
     """Give headings, paragraphs, formulas, code and tables their looks, and headings their anchors."""
+    document.setIndentWidth(_INDENT)
     for block in _blocks(document):
         _dress_block(block, look)
     for table in _tables(document.rootFrame()):
@@ -155,20 +158,18 @@ def _frame(block: QTextBlock, look: Look) -> None:
     shape.setPadding(4.0)
     cursor = QTextCursor(block)
     cursor.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)
-    cursor.insertFrame(shape)
-    _flatten(block.document().findBlock(cursor.selectionStart() if cursor.hasSelection() else cursor.position()))
+    _flatten(cursor.insertFrame(shape))
 
 
-def _flatten(inside: QTextBlock) -> None:
-    """The empty line that a frame puts before itself."""
-    before = inside.previous()
-    while before.isValid() and before.text() == "":
-        shape = QTextBlockFormat(before.blockFormat())
-        shape.setTopMargin(0.0)
-        shape.setBottomMargin(0.0)
-        shape.setLineHeight(4.0, QTextBlockFormat.LineHeightTypes.FixedHeight.value)
-        QTextCursor(before).setBlockFormat(shape)
-        before = before.previous()
+def _flatten(frame: QTextFrame) -> None:
+    """The empty lines that a frame puts before and behind itself."""
+    before = frame.firstCursorPosition().block().previous()
+    behind = frame.lastCursorPosition().block().next()
+    for block in (before, behind):
+        if block.isValid() and not block.text():
+            shape = QTextBlockFormat()
+            shape.setLineHeight(_FLAT, QTextBlockFormat.LineHeightTypes.FixedHeight.value)
+            QTextCursor(block).setBlockFormat(shape)
 
 
 def _blocks(document: QTextDocument) -> Iterator[QTextBlock]:
@@ -191,6 +192,7 @@ def _dress_block(block: QTextBlock, look: Look) -> None:
     ):
         shape.setBackground(look.ground)
         shape.setLeftMargin(_INDENT)
+        shape.setNonBreakableLines(False)  # nothing scrolls sideways
     elif not in_table:
         shape.setTopMargin(2.0 if block.textList() else 5.0)
         shape.setBottomMargin(2.0 if block.textList() else 5.0)
@@ -204,6 +206,7 @@ def _dress_heading(block: QTextBlock, level: int) -> None:
     letters = QTextCharFormat()
     letters.setProperty(QTextFormat.Property.FontSizeAdjustment, _LARGER.get(level, 0))
     letters.setFontWeight(QFont.Weight.DemiBold)
+    letters.setAnchor(True)
     letters.setAnchorNames([slug_of(block.text())])
     cursor.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)
     cursor.mergeCharFormat(letters)
@@ -257,7 +260,7 @@ def _dress_table(table: QTextTable, look: Look) -> None:
     shape.setCellSpacing(0.0)
     shape.setTopMargin(6.0)
     shape.setBottomMargin(8.0)
-    shape.setWidth(QTextLength(QTextLength.Type.PercentageLength, 100.0))
+    shape.setWidth(QTextLength(QTextLength.Type.PercentageLength, _TABLE))
     table.setFormat(shape)
     for column in range(table.columns()):
         cell = table.cellAt(0, column)

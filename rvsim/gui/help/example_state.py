@@ -10,10 +10,11 @@ import numpy as np
 
 from rvsim.errors import ExpressionError, UnknownNameError
 from rvsim.experiment import SHAPE_KINDS, Experiment, TrajectoryTask, limit_violations
-from rvsim.experiment.program import ArcMove, Gripper, JointMove, LineMove, Program, Triple, Wait
+from rvsim.experiment.program import ArcMove, Gripper, JointMove, Program, Triple, Wait
 from rvsim.expressions import evaluate
-from rvsim.lab.lines import default_experiment, line_presets
+from rvsim.lab.lines import default_experiment, line_presets, preset_path
 from rvsim.lab.named_paths import path_names
+from rvsim.motion import track
 from rvsim.motion.trajectory import LAW_TITLES
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -124,12 +125,13 @@ def _program(experiment: Experiment, text: str) -> Experiment:
 
 
 def _carrying(experiment: Experiment) -> Program:
-    """From one end of the line to the other, with something in the gripper, and home."""
-    start, end = experiment.line.start, experiment.line.end
-    over = 0.5 * (start + end) + (0.0, 0.0, _LIFT * float(np.linalg.norm(end - start)))
-    home = JointMove(tuple(experiment.robot.home.tolist()))
-    carried = ArcMove(_triple(over), _triple(end), "free")
-    return (home, LineMove(_triple(start), "free"), Gripper(0.0), carried, Gripper(1.0), Wait(0.5), home)
+    """Something is taken at the beginning of the arm's line, put down at its end; then home."""
+    robot, preset = experiment.robot, line_presets(experiment.robot)[0]
+    first = track(robot, preset_path(robot, preset), near=robot.home).q[0]
+    over = 0.5 * (preset.start + preset.end) + (0.0, 0.0, _LIFT * float(np.linalg.norm(preset.end - preset.start)))
+    carried = ArcMove(_triple(over), _triple(preset.end), "keep")
+    taken = (JointMove(tuple(first.tolist())), Gripper(0.0))
+    return (*taken, carried, Gripper(1.0), Wait(0.5), JointMove(tuple(robot.home.tolist())))
 
 
 def _triple(point: FloatArray) -> Triple:

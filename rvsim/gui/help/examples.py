@@ -104,6 +104,7 @@ def _set_up(window: MainWindow, wishes: dict[str, str]) -> None:
     program = wanted.program or before.program
     session.edit("Set up", replace(wanted, robot=before.robot, poses=before.poses, program=program))
     session.undo_stack.endMacro()
+    session.say("An example of the help. Undo takes it back.")
 
 
 def _source(window: MainWindow, key: str, _wishes: dict[str, str]) -> Done:

@@ -75,7 +75,7 @@ def plain_line(line: str) -> str:
     text = _INLINE_MATH.sub(lambda found: plain_text(found[1]), line)
     text = _LINK.sub(r"\1", text)
     text = re.sub(r"^\s*(\||[-*>]\s|\d+\.\s)", "", text)
-    return re.sub(r"\*\*|`|\\(?=[|*])", "", text).replace("|", " ").replace("---", "").strip()
+    return re.sub(r"\*+|`|\\(?=[|*])", "", text).replace("|", " ").replace("---", "").strip()
 
 
 def slug_of(title: str) -> str:

@@ -18,7 +18,7 @@ def show_help(window: MainWindow, page: str = "") -> HelpWindow:
     name = page or help_page_of(QApplication.focusWidget())
     shown = window.findChild(HelpWindow)
     if not isinstance(shown, HelpWindow):
-        shown = HelpWindow(window)
+        shown = HelpWindow(window, name)
     shown.show_page(name)
     shown.showNormal() if shown.isMinimized() else shown.show()
     shown.activateWindow()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from PySide6.QtCore import QEvent, QPoint, QSize, Qt, QTimer, QUrl
+from PySide6.QtCore import QEvent, QPoint, Qt, QTimer, QUrl
 from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
@@ -18,11 +18,16 @@ from rvsim.gui.widgets import ElidedLabel, button
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
 
-_SIZE = QSize(560, 660)
-_ROOM = QSize(24, 48)  # [pixels] that the window behind is larger, at least
+_WIDTHS = 480, 560  # [pixels]
+_SHARE = 0.46  # of the width of the window behind
+_HEIGHT = 660
+_MARGIN = 48  # [pixels] that the window behind is higher, at least
+_AT = QPoint(8, 40)
+_AT_LEFT = "arm"  # the page of the one panel at the left
 _MOST_HITS = 30
 _FEWEST_LETTERS = 2
 _ENDING = ".md"
+_ENTITIES = {ord(sign): f"&#{ord(sign)};" for sign in "\\`*_[]<>#|$&~"}
 
 
 class Place(NamedTuple):
@@ -38,9 +43,10 @@ class HelpWindow(QWidget):
 
     Args:
         window: the main window, which the examples set up.
+        page: the first page that will be shown.
     """
 
-    def __init__(self, window: MainWindow) -> None:
+    def __init__(self, window: MainWindow, page: str = INDEX) -> None:
         super().__init__(window, Qt.WindowType.Window)
         self.setObjectName("help_window")
         self._window = window
@@ -60,7 +66,7 @@ class HelpWindow(QWidget):
         column.addWidget(self.browser, 1)
         column.addWidget(self.foot)
         self._add_keys()
-        self._place_window()
+        self._place_window(page)
         window.preferences.changed.connect(self._on_preference)
         window.session.undo_stack.indexChanged.connect(self._on_step)
 
@@ -107,14 +113,16 @@ class HelpWindow(QWidget):
         for text, slot in keys.items():
             QShortcut(QKeySequence(text), self, slot)
 
-    def _place_window(self) -> None:
-        """As it was left; else at the left edge of the window behind, so that the panels at the right can be seen."""
+    def _place_window(self, page: str) -> None:
+        """As it was left; else at the left of the window behind, so that the panel that it explains can be seen."""
         kept = self._window.preferences.window_state("help")
         if not kept.isEmpty() and self.restoreGeometry(kept):
             return
         behind = self._window.geometry()
-        self.resize(_SIZE.boundedTo(behind.size() - _ROOM))
-        self.move(behind.topLeft() + QPoint(8, 40))
+        narrow, wide = _WIDTHS
+        self.resize(min(max(round(_SHARE * behind.width()), narrow), wide), min(_HEIGHT, behind.height() - _MARGIN))
+        aside = QPoint(self._window.docks.left.width(), 0) if page == _AT_LEFT else QPoint()
+        self.move(behind.topLeft() + _AT + aside)
 
     # --- going -------------------------------------------------------------------------------------------------------
 
@@ -280,6 +288,4 @@ def _results(words: str) -> str:
 
 def _plain(text: str) -> str:
     """Text in which nothing is a mark of Markdown or a formula."""
-    for sign in "\\`*_[]<>#|$":
-        text = text.replace(sign, f"&#{ord(sign)};")
-    return text
+    return text.translate(_ENTITIES)
