@@ -76,7 +76,8 @@ class ServosModel(QAbstractTableModel):
 
     def give_room(self, column: int, width: int) -> None:
         """A column is so wide [pixels]; decimals that would be cut are left out."""
-        self._rooms[column] = width - CELL_MARGIN
+        if width > 0:  # it is not one that is hidden
+            self._rooms[column] = width - CELL_MARGIN
 
     def show_robot(self, robot: Robot) -> None:
         """Show the servos of an arm; an editor that is open survives if the rows are as many."""

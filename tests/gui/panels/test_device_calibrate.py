@@ -26,7 +26,7 @@ from rvsim.robot import GripperServo, Robot, Servo
 from .conftest import StageStub
 
 TICK, LOOK = 0.004, 0.032  # [s] of the driver, and of the window
-LONG = 2000  # looks
+LONG = 5000  # looks
 CLOSE = np.radians(0.2)  # what a student with a set square sees
 LOOKS = 3  # in a row without a change: it stands
 TURNS = 20  # nudges that a student may need
