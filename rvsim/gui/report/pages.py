@@ -43,7 +43,7 @@ class _Book:
             self._waiting.append(chain)
         else:
             self._turn()
-            while self._waiting and self._has_room(self._waiting[0]):
+            while self._waiting and not chain[0].again and self._has_room(self._waiting[0]):
                 self._put(self._waiting.pop(0))
             if not self._has_room(chain) and self.pages[-1]:
                 self._turn()

@@ -20,6 +20,7 @@ MARGIN = (71.0, 74.0, 71.0, 70.0)  # left, top, right, bottom
 WIDTH = PAGE[0] - MARGIN[0] - MARGIN[2]
 HEIGHT = PAGE[1] - MARGIN[1] - MARGIN[3]
 _RESOLUTION = 600
+_ISOLATE, _AGAIN = "\u2068", "\u2069"  # a name from right to left leaves the date beside it alone
 _TITLE_RAISED = 14.0  # the title begins above the margin: there is no header over it
 
 
@@ -75,7 +76,7 @@ def _shortened(text: str, width: float) -> str:
 def _title_strips(cover: Cover) -> Iterator[Strip]:
     yield from text_strips("LABORATORY REPORT", faces.SMALL, WIDTH, above=0.0)
     yield from text_strips(cover.title, faces.TITLE, WIDTH, above=3.0)
-    who = " · ".join(text for text in (cover.author, cover.date) if text)
+    who = " · ".join(f"{_ISOLATE}{text}{_AGAIN}" for text in (cover.author, cover.date) if text)
     if who:
         yield from text_strips(who, faces.LEAD._replace(sans=True, size=10.5, color=MUTED), WIDTH, above=4.0)
     yield Strip(1.2, _title_rule, 9.0)

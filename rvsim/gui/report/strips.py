@@ -68,9 +68,16 @@ def section_strips(section: Section, width: float) -> Iterator[Strip]:
     yield Strip(title.height, _section_title(section, title), 26.0, keep=True)
     for block, following in zip(section.blocks, (*section.blocks[1:], None), strict=True):
         strips = list(block_strips(block, width))
-        if isinstance(block, Paragraph) and isinstance(following, _LED_TO):
+        if _belong_together(block, following):
             strips[-1] = strips[-1]._replace(keep=True)
         yield from strips
+
+
+def _belong_together(block: Block, following: Block | None) -> bool:
+    """What a paragraph leads to, and formulas that are compared."""
+    if isinstance(block, Formula) and isinstance(following, Formula):
+        return bool(block.label and following.label)
+    return isinstance(block, Paragraph) and isinstance(following, _LED_TO)
 
 
 def _section_title(section: Section, title: Text) -> Draw:
@@ -243,7 +250,7 @@ def caption_runs(caption: str) -> tuple[Run, ...]:
 
 
 def _chart(chart: Chart, width: float) -> Strip:
-    drawing = QSvgRenderer(QByteArray(chart_svg(chart).encode()))
+    drawing = QSvgRenderer(QByteArray(chart_svg(chart, faces.sans_family()).encode()))
     height = chart_height(chart)
 
     def draw(painter: QPainter, x: float, y: float) -> None:

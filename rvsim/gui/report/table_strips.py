@@ -18,6 +18,7 @@ _LEAST_SCALE = 0.74
 _SPREAD = 0.85  # of the page: a table as wide as that takes all of it
 _MATH_SIZE = 9.5
 _THICK, _THIN = 1.0, 0.5
+_SMALL = 14  # rows
 
 
 class _Grid(NamedTuple):
@@ -52,12 +53,13 @@ def _is_head(head: Words) -> bool:
 
 
 def _rows(table: Table, grid: _Grid, head: Strip) -> Iterator[Strip]:
-    """The first two rows stay with the head, the last two with the rule below them."""
+    """A small table stays in one piece; of a long one two rows stay with the head, and two with the rule below."""
     count = len(table.rows)
+    whole = count <= _SMALL
     for number, row in enumerate(table.rows):
         rule = _THIN if table.totals and number == count - table.totals else 0.0
         strip = _row(row, table.columns, grid, faces.CELL, (rule, 0.0))
-        yield strip._replace(keep=number in (0, count - 2, count - 1), again=(head,))
+        yield strip._replace(keep=whole or number in (0, count - 2, count - 1), again=(head,))
 
 
 def _rule(grid: _Grid) -> Strip:

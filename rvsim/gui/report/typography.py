@@ -11,6 +11,7 @@ from PySide6.QtGui import (
     QColor,
     QFont,
     QFontDatabase,
+    QFontInfo,
     QFontMetricsF,
     QPainter,
     QTextCharFormat,
@@ -57,6 +58,12 @@ def serif_families() -> list[str]:
         number = QFontDatabase.addApplicationFont(str(file))
     own = QFontDatabase.applicationFontFamilies(number) if number >= 0 else []
     return ["STIX Two Text", *own, "Times New Roman", "Liberation Serif", "Nimbus Roman", "DejaVu Serif"]
+
+
+@cache
+def sans_family() -> str:
+    """The letters of captions: a drawing in SVG takes one name only."""
+    return QFontInfo(font(CAPTION)).family()
 
 
 def font(face: Face, style: str = "", scale: float = FINE) -> QFont:

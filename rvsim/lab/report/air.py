@@ -6,6 +6,7 @@ import re
 
 _MATRIX = re.compile(r"(\\begin\{bmatrix\})(.*?)(\\end\{bmatrix\})", re.DOTALL)
 _STRUT = "{}_{\\phantom{0}}"  # an index that is not seen makes its row higher
+_FIRST_MINUS = re.compile(r"^-")  # a sign, although something stands before it
 _GAP = " & \\,\\,"
 
 
@@ -18,4 +19,4 @@ def _spread(body: str) -> str:
     rows = [row.strip() for row in body.split("\\\\")]
     if len(rows) < 2 or "\\frac" in body:
         return body
-    return " \\\\ ".join(f"{_STRUT}{re.sub(r' *& *', lambda _: _GAP, row)}" for row in rows)
+    return " \\\\ ".join(_STRUT + re.sub(r" *& *", lambda _: _GAP, _FIRST_MINUS.sub(r"\\,-", row)) for row in rows)

@@ -12,14 +12,14 @@ from rvsim.robot.arrays import FloatArray
 
 WIDTH = 453.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 50.0, 8.0, 18.0, 30.0
-_LEGEND_ROW, _LEGEND_STROKE, _LETTER = 12.0, 18.0, 4.2
+_LEGEND_LEFT, _LEGEND_ROW, _LEGEND_STROKE = 24.0, 12.0, 18.0
 _DASHES = ("", *(f' stroke-dasharray="{d}"' for d in ("6 3", "2 2", "8 2.5 2 2.5", "8 2 2 2 2 2")))
 _INK, _MUTED, _GRID = "#1D2733", "#4A5665", "#DFE5ED"
-_FONTS = "Helvetica, Arial, Liberation Sans, Nimbus Sans, DejaVu Sans, sans-serif"
+FONTS = "Helvetica, Arial, Liberation Sans, Nimbus Sans, DejaVu Sans, sans-serif"
 _HATCH, _HATCH_STEP = 3.0, 9.0
 
 
-def chart_svg(chart: Chart) -> str:
+def chart_svg(chart: Chart, fonts: str = FONTS) -> str:
     """The drawing with its title, axes, grid, limits, curves and their names."""
     legend = list(_legend(chart))
     rows = 1 + max((row for row, _, _ in legend), default=-1)
@@ -32,7 +32,7 @@ def chart_svg(chart: Chart) -> str:
     names = (_legend_entry(chart.height + _LEGEND_ROW * row, left, curve) for row, left, curve in legend)
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH:g} {height:g}" width="{WIDTH:g}" '
-        f'height="{height:g}" font-family="{_FONTS}" font-size="8" role="img">'
+        f'height="{height:g}" font-family="{escape(fonts)}" font-size="8" role="img">'
         f"<title>{escape(chart.title)}</title>{''.join(body)}{''.join(names)}</svg>"
     )
 
@@ -140,13 +140,18 @@ def _legend(chart: Chart) -> Iterator[tuple[int, float, Curve]]:
     """Row, place from the left, and curve; a chart of one curve says in its title what it is."""
     if len(chart.curves) < 2:
         return
-    row, left = 0, _LEFT
+    row, left = 0, _LEGEND_LEFT
     for curve in chart.curves:
-        width = _LEGEND_STROKE + 4.0 + _LETTER * len(curve.name) + 8.0
-        if left + width > WIDTH and left > _LEFT:
-            row, left = row + 1, _LEFT
+        width = _LEGEND_STROKE + 4.0 + _name_width(curve.name) + 10.0
+        if left + width > WIDTH and left > _LEGEND_LEFT:
+            row, left = row + 1, _LEGEND_LEFT
         yield row, left, curve
         left += width
+
+
+def _name_width(name: str) -> float:
+    """About how wide a name is: letters are known to be narrow or wide, whatever the font."""
+    return sum(2.4 if letter in "ijlt rf" else 7.2 if letter in "mwMW" else 4.7 for letter in name)
 
 
 def _legend_entry(top: float, left: float, curve: Curve) -> str:

@@ -21,6 +21,8 @@ from rvsim.scene.paths import path_items
 from rvsim.scene.primitives import Item
 
 _WIDTH, _HEIGHT = 620, 372
+_TURNS = tuple(np.radians([0.0, 60.0, -60.0, 120.0, -120.0, 180.0]).tolist())
+_ASIDE = 0.6  # the cosine between the way to the path and the way to the eye
 _AIR = 0.04  # about what is shown, as a part of its size
 
 
@@ -62,17 +64,40 @@ def _picture(
     more: FloatArray | None = None,
 ) -> ScenePicture:
     scene = compose(study.robot, q, LIGHT, options, extras)
-    camera = Camera(np.zeros(3), 1.0).fitted(_box(study.robot, shown, more), _WIDTH, _HEIGHT)
+    camera = _before(more, _arm_points(study.robot, shown)).fitted(_box(study.robot, shown, more), _WIDTH, _HEIGHT)
     return ScenePicture(scene, camera, _WIDTH, _HEIGHT, text)
 
 
 def _box(robot: Robot, poses: Sequence[FloatArray], more: FloatArray | None) -> FloatArray:
     """(2, 3) around the base and the arm in all these poses, with some air [m]."""
-    T = link_transforms(robot, np.stack(poses))
-    tools = (T[:, -1] @ robot.T_flange_tool)[:, :3, 3]
-    points = np.concatenate([np.zeros((1, 3)), T[..., :3, 3].reshape(-1, 3), tools, *([] if more is None else [more])])
+    points = np.concatenate([np.zeros((1, 3)), _arm_points(robot, poses), *([] if more is None else [more])])
     air = _AIR * max(float(np.ptp(points, axis=0).max()), 0.5 * robot.size)
     return np.array([points.min(axis=0) - (air, air, 0.0), points.max(axis=0) + air])
+
+
+def _arm_points(robot: Robot, poses: Sequence[FloatArray]) -> FloatArray:
+    """(k, 3) joints and tools [m]."""
+    T = link_transforms(robot, np.stack(poses))
+    tools = (T[:, -1] @ robot.T_flange_tool)[:, :3, 3]
+    return np.concatenate([T[..., :3, 3].reshape(-1, 3), tools])
+
+
+def _before(path: FloatArray | None, arm: FloatArray) -> Camera:
+    """The eye on the side on which the path is, a little aside, so that neither hides the other."""
+    cameras = [Camera(np.zeros(3), 1.0).orbited(turn, 0.0) for turn in _TURNS]
+    if path is None:
+        return cameras[0]
+    way = path.mean(axis=0)[:2] - arm.mean(axis=0)[:2]
+    if np.linalg.norm(way) < 1e-9:
+        return cameras[0]
+    straight = way / np.linalg.norm(way)
+    return min(cameras, key=lambda camera: abs(float(_flat(camera) @ straight) - _ASIDE))
+
+
+def _flat(camera: Camera) -> FloatArray:
+    """(2,) the unit direction to the eye, seen from above."""
+    across = camera.axes[2, :2]
+    return np.asarray(across / np.linalg.norm(across))
 
 
 def _same(one: FloatArray, other: FloatArray) -> bool:

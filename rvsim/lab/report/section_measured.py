@@ -22,11 +22,11 @@ def measured_section(study: Study, measures: Measures) -> Section:
     """Errors in numbers, then over time."""
     recording = study.recording
     assert recording is not None, "asked for only where something ran"
+    count = len(recording.measured_rows)
     words = (
-        f"The motion ran on an arm for {number(recording.duration, 2)} s; {len(recording.t)} moments were recorded. "
+        f"The motion ran on an arm for {number(recording.duration, 2)} s; {len(recording.t)} moments were recorded, "
+        f"{count or 'none'} of them with a measurement. {study.measured}"
     )
-    rows = len(recording.measured_rows)
-    words += f"{study.measured} {rows} of them are measured.".strip() if rows else "Nothing was measured."
     return Section(
         "On the arm: desired, commanded, measured",
         (

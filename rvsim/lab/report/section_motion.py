@@ -18,10 +18,12 @@ from rvsim.scene.primitives import Color
 
 AXIS_COLORS = ("#D55E00", "#009E73", "#0072B2")  # Okabe and Ito
 _TOOL_COLOR, _OFF_COLOR = "#0072B2", "#B5179E"
-_OFF_WORDS = (
-    "How far the tool is from the straight pieces between the points of the path: at the points nothing but rounding, "
-    "between them a little, for there the joints follow a spline."
-)
+_OFF_WORDS = {
+    True: "How far the tool is from the straight pieces between the points of the path: at the points nothing but "
+    "rounding, between them a little, for there the joints follow a spline.",
+    False: "How far the tool is from the straight pieces between the points of the path: it passes by those that are "
+    "out of reach.",
+}
 _TIME = "time [s]"
 _LIGHTEST = 0.4  # luminance of a curve on white
 # A level deviation of rounding is written in the unit that shows it.
@@ -41,11 +43,14 @@ def motion_section(study: Study, measures: Measures) -> Section:
 
 def _figures(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> Iterator[Block]:
     joints = tuple(_joint_chart(curves, measures, order, marks) for order in range(3))
-    yield Figure("Joints, their speeds and their accelerations. Hatched: limits of the joint of that colour.", joints)
+    yield Figure(
+        "Joints, their speeds and their accelerations; limits that are near are hatched.",
+        joints,
+    )
     yield Figure("Where the tool is, and where the path wants it (dashed).", (_place(curves, measures, marks),))
     if curves.deviation is not None:
         yield Figure(
-            _OFF_WORDS,
+            _OFF_WORDS[curves.tracking is None or curves.tracking.complete],
             (_deviation(curves, measures, marks),),
         )
     yield Figure(

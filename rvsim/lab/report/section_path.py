@@ -70,7 +70,7 @@ def _between(study: Study, measures: Measures) -> list[tuple[Words, ...]]:
     if deviation is None or not np.isfinite(deviation).any():
         return []
     factor, unit = fine_unit(deviation, measures)
-    return [("Largest deviation between the points", number(float(np.nanmax(deviation)) * factor, 2), unit)]
+    return [("Largest deviation of the motion", number(float(np.nanmax(deviation)) * factor, 2), unit)]
 
 
 def _deviation(
@@ -102,7 +102,7 @@ def _peaks(report: Report, measures: Measures) -> Iterator[Block]:
     )  # fmt: skip
     pairs = zip(report.speeds, report.accelerations, strict=True)
     rows = tuple(_peak_row(index, speed, rate, report, measures) for index, (speed, rate) in enumerate(pairs))
-    assumed = any(peak.limit is not None and peak.limit.assumed for peak in report.speeds)
+    assumed = any(peak.limit is not None and peak.limit.assumed for peak in (*report.speeds, *report.accelerations))
     yield Table(
         "The most that the joints do on the way.",
         columns,
