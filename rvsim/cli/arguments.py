@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple, NoReturn
 
 from rvsim.cli.outcome import InputError
+from rvsim.files.session_file import ENDING
 
 # A value may begin with a minus sign; written with "=" it is not taken for an option.
 _VECTOR_OPTIONS = ("--deg", "--near-deg", "--xyz-mm", "--rpy-deg", "--from-mm", "--to-mm", "--height-mm")
@@ -61,6 +62,19 @@ def joined_values(arguments: Sequence[str]) -> list[str]:
         else:
             joined.append(argument)
     return joined
+
+
+def named_session(arguments: Sequence[str]) -> list[str]:
+    """`rvsim FILE.rvsim`, as a double click has it, as `rvsim --open=FILE.rvsim`."""
+    named = list(arguments)
+    for index, argument in enumerate(named):
+        before = named[index - 1] if index else ""
+        belongs_to_option = before.startswith("-") and "=" not in before
+        if not argument.startswith("-") and not belongs_to_option:
+            if argument.lower().endswith(ENDING):
+                named[index] = f"--open={argument}"
+            break  # a file, or a command, whose arguments are its own
+    return named
 
 
 def output_file(text: str) -> str:

@@ -10,6 +10,7 @@ import sys
 from rvsim.cli.arguments import output_file
 from rvsim.cli.outcome import InputError
 from rvsim.files import load_robot
+from rvsim.files.session_file import load_session
 
 _PANELS = (
     "path", "check", "program", "compare", "inverse", "how", "lab",
@@ -23,6 +24,9 @@ def add_window_options(parser: argparse.ArgumentParser) -> None:
     window = parser.add_argument_group("the window")
     window.add_argument(
         "--robot", metavar="ARM", help="the arm to begin with: a name that `rvsim robots` lists, or a robot file"
+    )
+    window.add_argument(
+        "--open", metavar="FILE.rvsim", help="the session to open; rvsim FILE.rvsim alone means the same"
     )
     window.add_argument("--renderer", choices=("auto", "gl", "painter"), help="who draws the scene")
     window.add_argument("--theme", choices=("light", "dark"))
@@ -44,6 +48,8 @@ def open_window(options: argparse.Namespace) -> int:
     """Show the window until it is closed; its exit status."""
     if options.robot is not None:
         load_robot(options.robot)  # an unknown arm is told before anything opens
+    if options.open is not None and options.screenshot is not None:
+        load_session(options.open)  # for a picture; the window says by itself what is wrong with a file
     _require_display(options)
     from rvsim.gui.app import main as show_window
 

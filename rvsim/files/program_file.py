@@ -174,6 +174,14 @@ def load_program(path: str | Path, robot: Robot) -> Program:
     return program_of(text, robot, path)
 
 
+def is_program(path: str | Path) -> bool:
+    """Whether a TOML file has moves: it may be a broken program still, but it is meant as one."""
+    try:
+        return "move" in tables_of(text_of(read_bytes(Path(path)), path), path)
+    except RobotFileError:
+        return False
+
+
 def _read(tables: dict[str, Any], robot: Robot, place: Place) -> Program:
     whole = Table(
         keys=(

@@ -26,8 +26,12 @@ class ActionSpec(NamedTuple):
 
 
 ACTIONS: tuple[ActionSpec, ...] = (
-    ActionSpec("open_robot", "&File", "Open robot file…", "Read an arm from a .toml file", Key.Open),
-    ActionSpec("save_robot", "&File", "Save robot file as…", "Write this arm as a .toml file", Key.SaveAs),
+    ActionSpec("new", "&File", "New", "Begin anew with this arm", "Ctrl+N"),
+    ActionSpec("open", "&File", "Open…", "Open a session: arm, poses, paths, program, notes", Key.Open),
+    ActionSpec("save", "&File", "Save", "Save the session", Key.Save),
+    ActionSpec("save_as", "&File", "Save as…", "Save the session under another name", "Ctrl+Shift+S"),
+    ActionSpec("open_robot", "&File", "Open robot file…", "Read an arm from a .toml file", "Ctrl+Alt+F", before=True),
+    ActionSpec("save_robot", "&File", "Save robot file as…", "Write this arm as a .toml file", "Ctrl+Alt+W"),
     ActionSpec("save_picture", "&File", "Save picture…", "Save the scene as a picture", "Ctrl+Shift+P", before=True),
     ActionSpec("save_csv", "&File", "Save path as CSV…", "Save the tracked path with its joints", "Ctrl+Shift+E"),
     ActionSpec("save_motion", "&File", "Save motion as CSV…", "Joints, their rates and the tool, as shown", "Ctrl+E"),
@@ -42,6 +46,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("copy_pose_text", "&Edit", "Copy pose as text", "Joints and tool pose", "Ctrl+Shift+C", before=True),
     ActionSpec("copy_pose_numpy", "&Edit", "Copy pose as NumPy", "Joints and tool, full precision", "Ctrl+Shift+N"),
     ActionSpec("copy_pose_latex", "&Edit", "Copy pose as LaTeX", "The tool's matrix", "Ctrl+Shift+K"),
+    ActionSpec("notes", "&Edit", "Notes…", "Your name and notes, saved with the session", "Ctrl+Alt+N", before=True),
     ActionSpec("view_iso", "&View", "Isometric", "Look from the front corner", "Ctrl+1"),
     ActionSpec("view_top", "&View", "Top", "Look straight down", "Ctrl+2"),
     ActionSpec("view_front", "&View", "Front", "Look along −x", "Ctrl+3"),

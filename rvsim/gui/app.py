@@ -14,6 +14,7 @@ from rvsim.files import user_folder
 from rvsim.gui.crash import CrashReporter, start_log
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
+from rvsim.gui.recovery_dialog import offer_recovery
 from rvsim.gui.renderers.choose import choose_renderer
 from rvsim.gui.renderers.opengl_context import prepare_opengl, probe_opengl
 from rvsim.gui.robot_library import RobotLibrary
@@ -84,13 +85,24 @@ def main(options: argparse.Namespace) -> int:
     window = build_window(preferences, robot=options.robot or "", renderer=options.renderer or "")
     reporter.parent_widget = lambda: window
     if options.screenshot:
+        if options.open is not None:
+            window.document.open(Path(options.open))
         return save_screenshot(window, options)
     _open(window)
+    _begin_document(window, options.open)
     if not preferences["tour_seen"]:
         from rvsim.gui.tour import offer_tour  # once in a lifetime: other starts need not pay for it
 
         offer_tour(window)
     return app.exec()
+
+
+def _begin_document(window: MainWindow, file: str | None) -> None:
+    """The session that was asked for; from now on nothing is lost. What a crash has left is offered."""
+    window.document.begin()
+    if file is not None:
+        window.document.open(Path(file))
+    offer_recovery(window.document, window)
 
 
 def _open(window: MainWindow) -> None:

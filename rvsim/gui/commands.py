@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QFileDialog, QMessageBox
+from PySide6.QtWidgets import QFileDialog
 
 from rvsim.errors import RvsimError
 from rvsim.files.atomic import write_atomically
+from rvsim.files.program_file import is_program
 from rvsim.gui.actions import shortcut_table
+from rvsim.gui.file_problem import tell_problem
 from rvsim.gui.panels.path_program import ProgramPage
 from rvsim.gui.panels.user_robot import ask_what_to_open, ask_where_to_save, opened, saved
 from rvsim.gui.picture import save_image
@@ -87,6 +89,11 @@ class Commands(QObject):
     def _deeds(self) -> dict[str, Callable[[], object]]:
         window, joints, view, motion = self._window, self._window.joints, self._window.scene_view, self._window.motion
         return {
+            "new": lambda: window.document.new(),
+            "open": lambda: window.document.ask_open(),
+            "save": lambda: window.document.save(),
+            "save_as": lambda: window.document.save_as(),
+            "notes": self.show_notes,
             "open_robot": self.open_robot,
             "save_robot": self.save_robot,
             "save_picture": self.save_picture,
@@ -124,6 +131,11 @@ class Commands(QObject):
             "stop": lambda: window.emergency_stop.stop("Esc was pressed."),
             "step_forward": lambda: motion.step(0.05),
             "step_back": lambda: motion.step(-0.05),
+            **self._help_deeds(),
+        }
+
+    def _help_deeds(self) -> dict[str, Callable[[], object]]:
+        return {
             "help": self.show_help,
             "help_contents": lambda: self.show_help("index"),
             "quick_start": lambda: self.show_help("quick-start"),
@@ -228,6 +240,23 @@ class Commands(QObject):
         self._session.use_robot(robot)
         self._session.say(sentence)
 
+    def open_toml(self, file: Path) -> None:
+        """A file that was dropped: a program where it has moves, else an arm."""
+        if is_program(file):
+            self._program().open_from(file)
+        else:
+            self.open_robot_file(file)
+
+    def show_notes(self) -> None:
+        """The student's name and notes, beside the window."""
+        from rvsim.gui.notes_dialog import NotesDialog
+
+        notes = self._window.findChild(NotesDialog) or NotesDialog(self._session, self._window)
+        if notes.isVisible():
+            notes.raise_()
+        notes.show()
+        notes.activateWindow()
+
     def save_robot(self) -> None:
         """Ask for a place and write the present arm there."""
         file = ask_where_to_save(self._window, self._session.robot)
@@ -265,12 +294,7 @@ class Commands(QObject):
         self._session.say(f"Saved {file}.")
 
     def _fail(self, what: str, problem: str) -> None:
-        self._session.say(f"{what} {problem}", "error")
-        box = QMessageBox(QMessageBox.Icon.Warning, "rvsim", what, parent=self._window)
-        box.setObjectName("file_problem")
-        box.setInformativeText(problem)
-        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        box.open()
+        tell_problem(self._window, self._session, what, problem)
 
     # --- the rest --------------------------------------------------------------------------------------------------
 

@@ -166,6 +166,13 @@ class DeviceControl(QObject):
         self.state_changed.emit(state)
         self.polled.emit()
 
+    def at_rest(self, experiment: Experiment) -> Experiment:
+        """The experiment as it is without a device: its arm with its own limits."""
+        wide, robot = self._wide, experiment.robot
+        if wide is None or len(wide) != robot.dof or np.array_equal(wide, robot.limits):
+            return experiment
+        return experiment.with_robot(self._with_limits(robot, wide))
+
     # --- moving ----------------------------------------------------------------------------------------------------
 
     def wake(self, joint: int | None) -> None:

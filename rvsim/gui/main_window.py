@@ -15,6 +15,7 @@ from rvsim.gui.commands import Commands
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.device_scene import DeviceScene
 from rvsim.gui.device_words import phase_level, phase_words
+from rvsim.gui.document import Document
 from rvsim.gui.emergency_stop import EmergencyStop
 from rvsim.gui.gizmo_drag import GizmoDrag
 from rvsim.gui.motion_control import MotionControl
@@ -48,6 +49,7 @@ from rvsim.gui.target_scene import TargetScene
 from rvsim.gui.theme import set_role, text_scale, wear_theme
 from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
+from rvsim.gui.undo_words import UndoWords
 from rvsim.gui.widgets import ElidedLabel, column_of
 
 if TYPE_CHECKING:
@@ -98,6 +100,8 @@ class MainWindow(QMainWindow):
         self._make_toolbar()
         self._make_status_bar(choice)
         self._connect()
+        self.document = Document(self)
+        self._add_recent_menu()
         self._show_robot()
         self.resize(1366, 768)
         self._restore_layout()
@@ -206,8 +210,15 @@ class MainWindow(QMainWindow):
             action.setShortcut(keys)
             edit.insertAction(first, action)
             self.actions_by_name[name] = action
+        UndoWords(self.actions_by_name["undo"], self.actions_by_name["redo"], stack, self)
         self.actions_by_name["undo"].triggered.connect(lambda: self.session.say(f"Undone: {stack.redoText()}."))
         self.actions_by_name["redo"].triggered.connect(lambda: self.session.say(f"Done again: {stack.undoText()}."))
+
+    def _add_recent_menu(self) -> None:
+        files = self.findChild(QMenu, "file_menu")
+        assert files is not None
+        menu = self.document.recent.menu(self, self.document.ask_and_open)
+        files.insertMenu(self.actions_by_name["save"], menu)
 
     def _make_status_bar(self, choice: Choice) -> None:
         self.message = ElidedLabel()
@@ -279,7 +290,6 @@ class MainWindow(QMainWindow):
         self.library.remember(robot)
         if self.library.titles != titles or self.joints.robots.count() == 0:
             self.joints.show_robots(self.library.titles, robot.name)
-        self.setWindowTitle(f"{robot.title} \u2013 rvsim")
         self.preferences.set("robot", robot.name)
 
     def _on_preference(self, name: str) -> None:
@@ -332,7 +342,10 @@ class MainWindow(QMainWindow):
         return self.screen().grabWindow(self.winId()) if on_screen else self.grab()
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Remember the layout; stop what moves."""
+        """Remember the layout; stop what moves. Where work would be lost, ask first."""
+        if not self.document.may_close():
+            event.ignore()
+            return
         self.motion.pause()
         self.device.close()
         self.served.end()

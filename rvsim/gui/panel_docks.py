@@ -99,6 +99,12 @@ class PanelDocks:
             if hasattr(page.widget, "close_worker"):
                 page.widget.close_worker()
 
+    @property
+    def front_page(self) -> str:
+        """The name of the page that can be seen, or of the panel where it has no pages."""
+        pages = self.front.widget()
+        return pages.current.name if isinstance(pages, PageStack) else self.front.objectName().removesuffix("_dock")
+
     def show_panel(self, name: str) -> bool:
         """Bring the panel or page of that name to the front; whether there is one."""
         for dock in self.right:

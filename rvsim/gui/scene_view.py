@@ -169,6 +169,19 @@ class SceneView(QWidget):
         self._animation.stop()
         self._show_from(camera)
 
+    @property
+    def stance(self) -> tuple[Camera, bool]:
+        """From where it is seen, or soon will be, and whether everything is framed, however large the widget is."""
+        return self._goal(), self._follows_size
+
+    def take_stance(self, camera: Camera, *, framed: bool) -> None:
+        """Looks from elsewhere at once; `framed`: everything from that direction, else exactly so."""
+        if framed:
+            self.set_camera(self._framed(camera))
+            self._follows_size = True
+        else:
+            self._move(camera)
+
     def fit(self) -> None:
         """Frames all that the arm can reach, and what it should reach, from the present direction."""
         self._go_framed(self._goal())

@@ -20,7 +20,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.text_dialog import TextDialog
 
 # These ask for a file or a name, or end the program: they are tested through what stands behind their dialogs.
-ASKING = {"open_robot", "save_robot", "save_picture", "save_csv", "save_pose", "quit"} | {
+ASKING = {"open", "save", "save_as", "open_robot", "save_robot", "save_picture", "save_csv", "save_pose", "quit"} | {
     "save_motion",
     "save_motion_si",
     "save_script",

@@ -261,7 +261,12 @@ class ExperimentKind:
     def plain(self, value: Experiment) -> dict[str, Any]:
         """The arm first."""
         record = Record(_experiment_fields(value.robot), Experiment)
-        return {"robot": RobotKind().plain(value.robot), **record.plain(value)}
+        return {"robot": self.arm(value.robot), **record.plain(value)}
+
+    @staticmethod
+    def arm(robot: Robot) -> dict[str, Any]:
+        """An arm as it stands in a file: `{"name": …}` for a built-in one as it came, else `{"file": …}`."""
+        return RobotKind().plain(robot)
 
 
 def _with(build: Callable[..., Any], **given: Any) -> Callable[..., Any]:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QVBoxLayout, QWidget
 
 from rvsim.device.driver.addresses import OTHER_VIRTUAL
 from rvsim.device.driver.ports import PortChoice, available_ports
+from rvsim.experiment import DeviceSettings
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import button, combo, form
+from rvsim.gui.widgets import button, combo, form, select
 
 _TYPED = ""
 _LANGUAGES = {"ssc32": "SSC-32, SSC-32U", "bridge": "Encoder bridge"}
@@ -18,9 +20,10 @@ _BAUDS = {rate: f"{rate} baud" for rate in (9600, 38400, 115200, 2400)}
 
 
 class PortSection(QWidget):
-    """Emits `connect_wanted(url, baud, language)` and `disconnect_wanted()`."""
+    """Emits `connect_wanted(url, baud, language)`, `disconnect_wanted()`, and `edited()` when something is chosen."""
 
     connect_wanted = Signal(str, int, str)
+    edited = Signal()
     disconnect_wanted = Signal()
 
     def __init__(self) -> None:
@@ -45,6 +48,9 @@ class PortSection(QWidget):
         self._choices: Sequence[PortChoice] = ()
         self._connected = self._lost = False
         self.port.currentIndexChanged.connect(lambda _: self._show_choice())
+        for box in (self.port, self.baud, self.language):
+            box.currentIndexChanged.connect(lambda _: self.edited.emit())
+        self.address.textChanged.connect(lambda _: self.edited.emit())
         self._lay_out()
         self.scan()
 
@@ -74,6 +80,23 @@ class PortSection(QWidget):
         """What is to be opened."""
         chosen = str(self.port.currentData() or _TYPED)
         return chosen if chosen != _TYPED else self.address.text().strip()
+
+    @property
+    def settings(self) -> DeviceSettings:
+        """What is chosen."""
+        language: Any = self.language.currentData()
+        return DeviceSettings(self.url, int(self.baud.currentData()), language)
+
+    def show_settings(self, settings: DeviceSettings) -> None:
+        """Choose these; a port that is not here is written as an address. Nothing is opened."""
+        here = self.port.findData(settings.url) if settings.url else 0
+        if here < 0:
+            self.address.setText(settings.url)
+        self.port.setCurrentIndex(here if here >= 0 else self.port.findData(_TYPED))
+        if self.baud.findData(str(settings.baud)) < 0:
+            self.baud.addItem(f"{settings.baud} baud", str(settings.baud))
+        select(self.baud, str(settings.baud))
+        select(self.language, settings.language)
 
     def scan(self) -> None:
         """List the ports that there are now; the one that was chosen stays if it is still there."""

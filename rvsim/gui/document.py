@@ -1,0 +1,251 @@
+"""The session as a file: new, open, save, whether there is something to lose, and the question before it is lost."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtWidgets import QFileDialog, QMessageBox
+
+from rvsim.errors import RvsimError, SessionFileError
+from rvsim.experiment import Experiment
+from rvsim.files.session_file import ENDING, load_session, save_session, session_bytes
+from rvsim.gui.autosave import Autosave, Copied, Leftover, autosave_seconds
+from rvsim.gui.document_state import port_section, show_state, state_of
+from rvsim.gui.file_drop import FileDrop
+from rvsim.gui.file_problem import tell_problem
+from rvsim.gui.recent_files import RecentFiles
+
+if TYPE_CHECKING:
+    from rvsim.gui.main_window import MainWindow
+
+_FILTER = f"Sessions of rvsim (*{ENDING})"
+_UNTITLED = "Untitled"
+Then = Callable[[], object]
+
+
+class Document(QObject):
+    """One to a window. It asks and makes safety copies only once `begin` was called: not in tests and pictures.
+
+    Attributes:
+        path: of the session's file, None before it has one.
+        read_only: a newer rvsim wrote the file: it is saved elsewhere.
+        asks: whether it asks before something is lost.
+    """
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window, self._session = window, window.session
+        self.path: Path | None = None
+        self.read_only = self.asks = False
+        self._clean = True  # as the undo stack has it
+        self._unsaved = False  # a recovered copy, which no file holds yet
+        self._leaving = False
+        self._question: QMessageBox | None = None
+        self._port = port_section(window)
+        self._saved_port = self._port.settings
+        self.recent = RecentFiles(window.preferences)
+        self.autosave = Autosave(self._to_copy, self)
+        self.autosave.failed.connect(self._on_copy_failed)
+        self._drop = FileDrop(window, {ENDING: self.ask_and_open, ".toml": window.commands.open_toml})
+        self._session.undo_stack.cleanChanged.connect(self._on_clean)
+        self._session.changed.connect(self._on_changed)
+        self._port.edited.connect(self.show_title)
+        self.show_title()
+
+    def begin(self) -> None:
+        """From now on ask before something is lost, and make safety copies."""
+        self.asks = True
+        self.autosave.start(autosave_seconds())
+
+    # --- what is to be lost ------------------------------------------------------------------------------------------
+
+    @property
+    def dirty(self) -> bool:
+        """Whether there is something that no file holds."""
+        return self._unsaved or not self._clean or self._port.settings != self._saved_port
+
+    @property
+    def name(self) -> str:
+        """What the session is called."""
+        return self.path.stem if self.path is not None else _UNTITLED
+
+    def show_title(self) -> None:
+        """The window's title: "name* – RV-M1 – rvsim"."""
+        title = f"{self.name}{'*' if self.dirty else ''} \u2013 {self._session.robot.title} \u2013 rvsim"
+        self._window.setWindowTitle(title.replace("[*]", "[*][*]"))
+
+    def _on_clean(self, clean: bool) -> None:
+        self._clean = clean
+        self.show_title()
+
+    def _on_changed(self, before: Experiment, after: Experiment) -> None:
+        if after.robot is not before.robot:
+            self.show_title()
+
+    def may_close(self) -> bool:
+        """Whether the window may close now; if not, the question is asked and the window closes after the answer."""
+        if self._leaving or not (self.asks and self.dirty):
+            self.autosave.close()
+            return True
+        self.leave(self._close)
+        return False
+
+    def _close(self) -> None:
+        self._leaving = True
+        self._window.close()
+
+    def leave(self, then: Then) -> None:
+        """Do what takes the place of the session: at once, or once it is saved or given up."""
+        if not (self.asks and self.dirty):
+            then()
+            return
+        if self._question is not None:
+            self._question.close()
+        box = QMessageBox(
+            QMessageBox.Icon.Question, "rvsim", f"Save the changes to “{self.name}”?", parent=self._window
+        )
+        box.setObjectName("unsaved_question")
+        box.setInformativeText("What is not saved will be lost.")
+        buttons = QMessageBox.StandardButton
+        box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
+        box.setDefaultButton(buttons.Save)
+        box.setEscapeButton(buttons.Cancel)
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.finished.connect(lambda answer: self._answered(answer, then))
+        self._question = box
+        box.open()
+
+    def _answered(self, answer: int, then: Then) -> None:
+        self._question = None
+        buttons = QMessageBox.StandardButton
+        if answer == buttons.Discard.value or (answer == buttons.Save.value and self.save()):
+            then()
+
+    # --- new and open ------------------------------------------------------------------------------------------------
+
+    def new(self) -> None:
+        """Begin anew with the arm in use, after asking."""
+        self.leave(self._new)
+
+    def _new(self) -> None:
+        robot = self._window.device.at_rest(self._session.experiment).robot
+        self._window.device.disconnect_device()
+        self._window.tracker.clear()
+        self._window.motion.load(None, "")
+        self._session.begin(self._session.fresh(robot))
+        self._became(None)
+        self._window.scene_view.fit()
+        self._session.say("A new session. Drag a slider, or press Track line.")
+
+    def ask_open(self) -> None:
+        """Ask for a file, and open it."""
+        self.leave(self._ask_open)
+
+    def _ask_open(self) -> None:
+        file, _ = QFileDialog.getOpenFileName(self._window, "Open session", str(self._folder()), _FILTER)
+        if file:
+            self.open(Path(file))
+
+    def ask_and_open(self, file: Path) -> None:
+        """Open this file, after asking."""
+        self.leave(partial(self.open, file))
+
+    def open(self, file: Path) -> bool:
+        """Open a file, or say why it cannot be opened; whether it was."""
+        try:
+            opened = load_session(file)
+        except SessionFileError as problem:
+            self._fail("This session cannot be opened.", str(problem))
+            return False
+        show_state(self._window, opened.state)
+        self._became(file.absolute(), read_only=opened.read_only)
+        self.recent.add(file)
+        self._session.say(opened.notice or f"Opened {file}.", "warning" if opened.read_only else "info")
+        return True
+
+    def recover(self, leftover: Leftover) -> bool:
+        """Go on with what a crash has left; whether it could be read."""
+        try:
+            opened = load_session(leftover.file)
+        except SessionFileError as problem:
+            self._fail("This copy cannot be recovered.", str(problem))
+            return False
+        show_state(self._window, opened.state)
+        self._became(leftover.original, unsaved=True)
+        self.autosave.tick()
+        if self.autosave.is_made:
+            leftover.delete()
+        self._session.say(f"Recovered “{self.name}”. Save it to keep it.")
+        return True
+
+    def _became(self, path: Path | None, *, read_only: bool = False, unsaved: bool = False) -> None:
+        """The window shows another session."""
+        self.path, self.read_only, self._unsaved = path, read_only, unsaved
+        self._saved_port = self._port.settings
+        self._session.undo_stack.setClean()
+        if not unsaved:
+            self.autosave.forget()
+        self.show_title()
+
+    # --- save --------------------------------------------------------------------------------------------------------
+
+    def save(self) -> bool:
+        """Save where it was opened, or ask where; whether it is saved."""
+        if self.path is None or self.read_only:
+            return self.save_as()
+        return self.save_to(self.path)
+
+    def save_as(self) -> bool:
+        """Ask where, and save there; whether it is saved."""
+        dialog = QFileDialog(self._window, "Save session as", str(self._folder()), _FILTER)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix(ENDING.removeprefix("."))
+        dialog.selectFile(f"{self.path.stem if self.path else self._session.robot.name}{ENDING}")
+        if not dialog.exec():
+            return False
+        return self.save_to(Path(dialog.selectedFiles()[0]))
+
+    def save_to(self, file: Path) -> bool:
+        """Save there, or say why not; whether it is saved. What is open stays as it is either way."""
+        if self.read_only and self.path is not None and _is_same(file, self.path):
+            self._fail("Not saved.", f"{file.name} was written by a newer rvsim: choose another name.")
+            return False
+        state = state_of(self._window)
+        try:
+            save_session(state, file)
+        except RvsimError as problem:
+            self._fail("Not saved: your work is still here.", f"{problem} Try another place, with “Save as”.")
+            return False
+        self._became(file.absolute())
+        self.recent.add(file)
+        self._session.say(f"Saved {file}.")
+        return True
+
+    def _folder(self) -> Path:
+        last = self.path or next(iter(self.recent.files), None)
+        return last.parent if last is not None else Path.home()
+
+    # --- inside ------------------------------------------------------------------------------------------------------
+
+    def _fail(self, what: str, problem: str) -> None:
+        tell_problem(self._window, self._session, what, problem)
+
+    def _on_copy_failed(self, sentence: str) -> None:
+        self._session.say(sentence, "warning")
+
+    def _to_copy(self) -> Copied | None:
+        if not self.dirty:
+            return None
+        mark = (self._session.experiment, self.path, *self._session.left, *vars(self._port.settings).values())
+        return Copied(mark, self.path, lambda: session_bytes(state_of(self._window)))
+
+
+def _is_same(file: Path, other: Path) -> bool:
+    try:
+        return file.samefile(other)
+    except OSError:
+        return file.absolute() == other.absolute()

@@ -1,0 +1,104 @@
+"""After a crash: what was left of it, and whether to go on with it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import datetime
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QListWidget, QVBoxLayout, QWidget
+
+from rvsim.errors import RvsimError
+from rvsim.files.session_file import load_session
+from rvsim.gui.autosave import Leftover, leftovers
+from rvsim.gui.document import Document
+from rvsim.gui.theme import set_role
+from rvsim.gui.widgets import button
+
+
+def offer_recovery(document: Document, window: QWidget) -> None:
+    """Offer what crashes have left, if there is any."""
+    left = leftovers()
+    if left:
+        RecoveryDialog(document, left, window).open()
+
+
+class RecoveryDialog(QDialog):
+    """The copies, the newest first. What is neither recovered nor deleted is offered again at the next start."""
+
+    def __init__(self, document: Document, left: Sequence[Leftover], parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setObjectName("recovery_dialog")
+        self.setWindowTitle("Recover")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._document, self._left = document, list(left)
+        title = QLabel("rvsim was not closed the last time. Your work is still there.")
+        title.setWordWrap(True)
+        set_role(title, role="title")
+        words = QLabel("Choose what to go on with. Your files are as you last saved them: nothing is replaced yet.")
+        words.setWordWrap(True)
+        set_role(words, role="muted")
+        self.list = QListWidget()
+        self.list.setObjectName("recovery_list")
+        self.list.setAccessibleName("What can be recovered")
+        self.list.addItems([_words(leftover) for leftover in self._left])
+        self.list.setCurrentRow(0)
+        self.list.itemActivated.connect(lambda _: self._recover())
+        column = QVBoxLayout(self)
+        column.setContentsMargins(20, 16, 20, 16)
+        column.setSpacing(12)
+        for widget in (title, words, self.list):
+            column.addWidget(widget)
+        column.addLayout(self._buttons())
+        self.resize(520, 300)
+
+    def _buttons(self) -> QHBoxLayout:
+        tip = "Throw this copy away; a file that you saved stays"
+        self.delete_button = button("recovery_delete", "Delete copy", tip, self._delete)
+        self.later_button = button("recovery_later", "Not now", "Ask again at the next start", self.close)
+        tip = "Go on with this copy"
+        self.recover_button = button("recovery_recover", "Recover", tip, self._recover, primary=True)
+        self.recover_button.setDefault(True)
+        row = QHBoxLayout()
+        row.addWidget(self.delete_button)
+        row.addStretch(1)
+        row.addWidget(self.later_button)
+        row.addWidget(self.recover_button)
+        return row
+
+    def _recover(self) -> None:
+        if self._document.recover(self._left[self.list.currentRow()]):
+            self.close()
+
+    def _delete(self) -> None:
+        row = self.list.currentRow()
+        self._left.pop(row).delete()
+        self.list.takeItem(row)
+        if not self._left:
+            self.close()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Leave the others to the next start."""
+        self._release()
+        super().closeEvent(event)
+
+    def reject(self) -> None:
+        """Esc: not now."""
+        self._release()
+        super().reject()
+
+    def _release(self) -> None:
+        for leftover in self._left:
+            leftover.release()
+        self._left.clear()
+
+
+def _words(leftover: Leftover) -> str:
+    name = leftover.original.stem if leftover.original else "Untitled"
+    when = datetime.fromtimestamp(leftover.when).strftime("%Y-%m-%d %H:%M:%S")
+    try:
+        arm = load_session(leftover.file).state.experiment.robot.title
+    except RvsimError:
+        arm = "cannot be read"
+    return f"{name} \u2013 {arm}, {when}"

@@ -1,0 +1,30 @@
+"""What Undo and Redo say that they will do: "Undo: move joint 3"."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QAction, QUndoStack
+
+
+class UndoWords(QObject):
+    """Keeps the texts of the two actions true to the stack."""
+
+    def __init__(self, undo: QAction, redo: QAction, stack: QUndoStack, parent: QObject) -> None:
+        super().__init__(parent)
+        self._undo, self._redo = undo, redo
+        stack.undoTextChanged.connect(self._show_undo)
+        stack.redoTextChanged.connect(self._show_redo)
+
+    def _show_undo(self, text: str) -> None:
+        self._undo.setText(undo_words("Undo", text))
+
+    def _show_redo(self, text: str) -> None:
+        self._redo.setText(undo_words("Redo", text))
+
+
+def undo_words(verb: str, text: str) -> str:
+    """ "Undo: move joint 3" for "Move joint 3"; what is written in capitals stays so."""
+    if not text:
+        return verb
+    small = text if text[1:2].isupper() else text[0].lower() + text[1:]
+    return f"{verb}: {small}".replace("&", "&&")
