@@ -9,7 +9,7 @@ from html import escape
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice
 from PySide6.QtGui import QImage, QImageWriter, QPainterPath
 
-from rvsim.gui.formula import Letter, pieces, plain_text
+from rvsim.gui.formula import Pieces, pieces, plain_text
 from rvsim.gui.renderers.painter import scene_image
 from rvsim.lab.report.values import ScenePicture
 
@@ -18,39 +18,39 @@ _SHARPER = 2.2  # pixels of a picture for one that is asked for
 
 
 class PageArtist:
-    """An `Artist` for one page: it remembers which letters the page has."""
+    """An `Artist` for one page: it counts its formulas, so that the names of their letters are their own."""
 
     def __init__(self) -> None:
-        self._outlines: dict[int, tuple[str, QPainterPath]] = {}  # the paths are kept, so that their ids stay theirs
+        self._count = 0
 
     def formula(self, latex: str) -> str:
-        """The formula as SVG, or as text where it cannot be set."""
+        """The formula as SVG in which each letter is outlined once, or as text where it cannot be set."""
         found = pieces(latex)
         words = escape(plain_text(latex), quote=True)
         if found is None:
             return f"<i>{words}</i>"
+        self._count += 1
         box = found.box
-        letters = "".join(map(self._letter, found.letters))
-        rules = "".join(
-            f'<rect x="{r.x():.2f}" y="{r.y():.2f}" width="{r.width():.2f}" height="{r.height():.2f}"/>'
-            for r in found.rules
-        )
         return (
             f'<svg class="math" role="img" aria-label="{words}" width="{box.width():.1f}" height="{box.height():.1f}" '
-            f'viewBox="{box.x():.2f} {box.y():.2f} {box.width():.2f} {box.height():.2f}">{letters}{rules}</svg>'
+            f'viewBox="{box.x():.2f} {box.y():.2f} {box.width():.2f} {box.height():.2f}">{self._drawn(found)}</svg>'
         )
 
-    def _letter(self, letter: Letter) -> str:
-        name, _ = self._outlines.setdefault(id(letter.outline), (f"g{len(self._outlines)}", letter.outline))
-        at = letter.at
-        return (
-            f'<use href="#{name}" transform="matrix({at.m11():.4g} 0 0 {at.m22():.4g} {at.dx():.2f} {at.dy():.2f})"/>'
+    def _drawn(self, found: Pieces) -> str:
+        """Outlines, the letters that use them, and bars. The pieces keep the outlines, so their ids stay theirs."""
+        names: dict[int, str] = {}
+        outlines, letters = [], []
+        for outline, at in found.letters:
+            if id(outline) not in names:
+                names[id(outline)] = f"f{self._count}g{len(names)}"
+                outlines.append(f'<path id="{names[id(outline)]}" d="{path_data(outline)}"/>')
+            place = f"matrix({at.m11():.4g} 0 0 {at.m22():.4g} {at.dx():.2f} {at.dy():.2f})"
+            letters.append(f'<use href="#{names[id(outline)]}" transform="{place}"/>')
+        rules = (
+            f'<rect x="{rule.x():.2f}" y="{rule.y():.2f}" width="{rule.width():.2f}" height="{rule.height():.2f}"/>'
+            for rule in found.rules
         )
-
-    def symbols(self) -> str:
-        """The outlines of all letters of the page."""
-        paths = "".join(f'<path id="{name}" d="{path_data(outline)}"/>' for name, outline in self._outlines.values())
-        return f'<svg class="shapes" aria-hidden="true"><defs>{paths}</defs></svg>' if paths else ""
+        return f"<defs>{''.join(outlines)}</defs>{''.join(letters)}{''.join(rules)}"
 
     def picture(self, picture: ScenePicture) -> str:
         """A PNG as a data URI."""
@@ -80,5 +80,5 @@ def path_data(path: QPainterPath) -> str:
     for index in range(path.elementCount()):
         element = path.elementAt(index)
         letter = {_ELEMENTS.MoveToElement: "M", _ELEMENTS.LineToElement: "L", _ELEMENTS.CurveToElement: "C"}
-        parts.append(f"{letter.get(element.type, ' ')}{element.x:.6g} {element.y:.6g}")
+        parts.append(f"{letter.get(element.type, ' ')}{element.x:.4g} {element.y:.4g}")
     return "".join(parts)

@@ -41,10 +41,6 @@ class Artist(Protocol):
         """A picture as a data URI."""
         ...
 
-    def symbols(self) -> str:
-        """What the formulas drawn so far share: an SVG element for the page, or nothing."""
-        ...
-
 
 def html_page(document: Document, artist: Artist) -> str:
     """The whole page."""
@@ -62,7 +58,7 @@ def html_parts(document: Document, artist: Artist) -> Iterator[str]:
     yield _head(document)
     for section in document.sections:
         yield from _section(section, artist)
-    yield f"</main>\n{artist.symbols()}\n</body>\n</html>\n"
+    yield "</main>\n</body>\n</html>\n"
 
 
 def _head(document: Document) -> str:
@@ -142,8 +138,12 @@ def _table(block: Table, artist: Artist) -> str:
 
 def _cells(row: tuple[Words, ...], columns: tuple[Column, ...], artist: Artist) -> str:
     return "".join(
-        f'<td class="{column.align}">{_words(cell, artist)}</td>' for cell, column in zip(row, columns, strict=True)
+        f'<td class="{_class(column)}">{_words(cell, artist)}</td>' for cell, column in zip(row, columns, strict=True)
     )
+
+
+def _class(column: Column) -> str:
+    return f"{column.align} wide" if column.wide else column.align
 
 
 def _caption(caption: str) -> str:

@@ -32,14 +32,14 @@ table { border-collapse: collapse; width: 100%; border-top: 1.6px solid #1d2733;
   font-size: 15px; font-variant-numeric: tabular-nums; }
 th { font-size: 13px; font-weight: 600; border-bottom: .8px solid #1d2733; }
 th, td { padding: 4px 7px; white-space: nowrap; vertical-align: baseline; }
-td.left { white-space: normal; }
+td.wide { white-space: normal; }
 tr.total td { border-top: .8px solid #1d2733; }
 .left { text-align: left; } .right { text-align: right; } .center { text-align: center; }
 .good { color: #00664b; } .warning { color: #8a4b00; } .bad { color: #b3261e; font-weight: 600; }
 .muted { color: #566373; }
-.shapes { position: absolute; width: 0; height: 0; }
 @media print { body { background: #fff; font-size: 10pt; } main { box-shadow: none; margin: 0; padding: 0;
   max-width: none; }
+  .lead { font-size: 11pt; } table { font-size: 9.5pt; } th, .note { font-size: 8pt; } figcaption { font-size: 8.6pt; }
   h2, h3 { break-after: avoid; } figure, tr, .formula { break-inside: avoid; } }
 @page { size: A4; margin: 22mm; }
 """
