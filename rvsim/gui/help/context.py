@@ -20,6 +20,9 @@ PAGE_OF_WIDGET = {
     "path_points_dialog": "path",
     "animation_dialog": "files",
     "import_dialog": "files",
+    "report_dialog": "files",
+    "notes_dialog": "files",
+    "matrix_dialog": "inverse",
 }
 
 
