@@ -1,0 +1,148 @@
+"""The lab report as a value: it says what the kernel computes, for every arm of the sources."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from rvsim import forward_kinematics, jacobian, joint_torques, load_robot, robot_names
+from rvsim.experiment import Load
+from rvsim.lab import default_experiment
+from rvsim.lab.repairs import motion_of, path_of
+from rvsim.lab.report import PARTS, Cover, Document, Study, build, html_page, parts_of
+from rvsim.lab.report.chart import Chart, Curve, Limit, axis, thinned
+from rvsim.lab.report.chart_svg import chart_svg
+from rvsim.lab.report.values import Figure, Formula, Paragraph, ScenePicture, Table, plain
+from rvsim.lab.sources import errata
+from rvsim.motion import track
+from rvsim.playback.recording import Recording
+
+COVER = Cover("Title <1> & more", 'Zoë "Z" O’Neil <script>', "1 May 2026", "First line.\n<b>Second</b> & last.")
+SOURCE_ARMS = ("rv-m1", "rv-1a", "ur5e", "rrrp", "al5b")
+
+
+def study_of(name: str, *, on_path: bool = True) -> Study:
+    robot = load_robot(name)
+    experiment = default_experiment(robot)
+    bent = np.clip(robot.home + 0.2, robot.limits[:, 0], robot.limits[:, 1])
+    experiment = experiment.at(bent).with_load(Load(np.array([1.0, -2.0, 3.0, 0.1, 0.2, -0.3]), payload=0.5))
+    if not on_path:
+        return Study(experiment)
+    tracking = track(robot, path_of("line", experiment), near=experiment.q)
+    return Study(experiment, tracking, motion_of(tracking, experiment))
+
+
+def numbers_of(latex: str) -> np.ndarray:
+    """The matrix of numbers that LaTeX says."""
+    body = re.findall(r"\\begin\{bmatrix\}(.*?)\\end\{bmatrix\}", latex)[-1]
+    body = re.sub(r"\\phantom\{[-0]\}|\{\}|_|\\,", "", body).replace("{-}", "-")
+    return np.array([[float(cell) for cell in row.split("&")] for row in body.split("\\\\")])
+
+
+def formula(document: Document, left: str) -> Formula:
+    return next(block for block in document.blocks() if isinstance(block, Formula) and block.left == left)
+
+
+def table(document: Document, words: str) -> Table:
+    return next(block for block in document.blocks() if isinstance(block, Table) and words in block.caption)
+
+
+@pytest.mark.parametrize("name", SOURCE_ARMS)
+def test_the_report_of_a_source_arm_says_what_the_kernel_computes(name: str) -> None:
+    study = study_of(name)
+    robot, q = study.robot, study.q
+    document = build(study, COVER)
+    T, J = forward_kinematics(robot, q), jacobian(robot, q)
+    shown = numbers_of(formula(document, "{}^{b}T_t").rights[-1])
+    np.testing.assert_allclose(shown[:3, :3], T[:3, :3], atol=5.1e-5)
+    length = 1.0 if robot.length_unit == "unit" else 1e3
+    np.testing.assert_allclose(shown[:3, 3], length * T[:3, 3], atol=5.1e-3)
+    np.testing.assert_allclose(numbers_of(formula(document, "J").rights[0]), J, atol=5.1e-5)
+    wrench = study.experiment.load.wrench + [0.0, 0.0, 0.5 * 9.80665, 0.0, 0.0, 0.0]
+    torques = numbers_of(formula(document, "\\tau").rights[-1])[:, 0]
+    np.testing.assert_allclose(torques, joint_torques(robot, q, wrench), atol=5.1e-4)
+    assert study.inverse is not None
+    assert len(table(document, "All branches").rows) == len(study.inverse.branches)
+    heads = [plain(b.words) for b in document.blocks() if isinstance(b, Paragraph)]
+    assert sum(head.startswith("Source 00") for head in heads) >= len(errata(robot))
+
+
+@pytest.mark.parametrize("name", sorted(set(robot_names()) - set(SOURCE_ARMS)))
+def test_every_other_arm_has_a_report_too(name: str) -> None:
+    study = study_of(name, on_path=False)
+    document = build(study, COVER)
+    assert "path" not in parts_of(study)
+    assert [section.number for section in document.sections] == [str(n + 1) for n in range(len(document.sections))]
+
+
+def test_captions_are_numbered_without_a_gap() -> None:
+    document = build(study_of("rv-m1"), COVER)
+    for kind, block_type in (("Table", Table), ("Figure", Figure)):
+        captions = [block.caption for block in document.blocks() if isinstance(block, block_type)]
+        assert captions
+        assert [caption.split(":")[0] for caption in captions] == [f"{kind} {n}" for n in range(1, len(captions) + 1)]
+        assert all(caption.endswith(".") for caption in captions)
+
+
+def test_only_the_parts_that_are_wanted_are_there() -> None:
+    study = study_of("rv-m1", on_path=False)
+    titles = [section.title for section in build(study, COVER, ("jacobian", "motion")).sections]
+    assert titles == ["Summary", "The Jacobian", "How this was computed"]
+    assert {part.name for part in PARTS} >= set(parts_of(study))
+
+
+def test_what_ran_on_an_arm_is_compared_with_what_was_wanted() -> None:
+    study = study_of("al5b")
+    wanted = np.linspace(study.robot.home, study.q, 50)
+    measured = np.where(np.arange(50)[:, None] % 5 == 0, wanted + np.radians(2.0), np.nan)
+    ran = replace(study, recording=Recording(np.linspace(0.0, 2.0, 50), wanted, wanted, measured), measured="By eye.")
+    rows = table(build(ran, COVER), "Differences").rows
+    assert len(rows) == study.robot.dof + 1
+    assert rows[0][2] == "0.000"
+    assert rows[0][4] == rows[0][5] == "2.000"
+
+
+class _Plain:
+    """An artist that draws nothing."""
+
+    def formula(self, latex: str) -> str:
+        return f"<i>{len(latex)}</i>"
+
+    def picture(self, picture: ScenePicture) -> str:
+        return f"data:,{picture.width}"
+
+
+def test_the_page_is_well_formed_and_what_was_typed_stays_text() -> None:
+    page = html_page(build(study_of("rrrp"), COVER), _Plain())
+    root = ElementTree.fromstring(page.removeprefix("<!DOCTYPE html>"))
+    assert root.findtext("head/title") == COVER.title
+    assert COVER.author in "".join(root.itertext())
+    assert "<b>Second</b>" in "".join(root.itertext())
+    assert root.find(".//script") is None
+    assert "http" not in page
+
+
+def test_axes_have_round_numbers_that_lie_on_them() -> None:
+    for low, high in ((0.0, 1.0), (-157.3, 12.1), (1e-15, 3e-15), (5.0, 5.0), (-1e7, 2e7)):
+        found = axis(low, high)
+        assert found.low <= low <= high <= found.high
+        assert 2 <= len(found.ticks) <= 8
+        assert len(set(found.texts)) == len(found.texts) == len(found.ticks)
+
+
+def test_a_chart_is_a_drawing_of_its_own() -> None:
+    t = np.linspace(0.0, 2.0, 5000)
+    wave = np.where((t > 1.0) & (t < 1.1), np.nan, np.sin(9.0 * t))
+    few = thinned(Curve("wave", "#0072B2", t, wave))
+    assert len(few.x) < 700
+    assert np.nanmax(few.y) == np.nanmax(wave)
+    assert np.nanmin(few.y) == np.nanmin(wave)
+    assert np.isnan(few.y).any()
+    chart = Chart("A < B", "t [s]", "[°]", (few, few), (Limit(1.0, "#D55E00", 1),), (1.0,))
+    root = ElementTree.fromstring(chart_svg(chart))
+    assert root.findtext("{http://www.w3.org/2000/svg}title") == "A < B"
+    assert "nan" not in chart_svg(chart)
