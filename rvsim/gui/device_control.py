@@ -15,13 +15,13 @@ from rvsim.files import load_robot
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.user_robot import own_copy
 from rvsim.gui.preferences import Preferences
+from rvsim.gui.servo_limits import ServoLimits
 from rvsim.gui.session import Session
 from rvsim.lab.before_running import objections
 from rvsim.lab.sentences import Units
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.edits import original_name
-from rvsim.robot.servos import within_servos
 
 if TYPE_CHECKING:
     from rvsim.device.driver.actions import Refusal
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 _POLL_MS = 33
 _AT_START = 2e-3  # [rad]: a motion begins only where the arm is
 _CLOSED = "The window was closed."
+_NARROW = "Limits of arm and servos"
 
 
 class DeviceControl(QObject):
@@ -43,12 +44,14 @@ class DeviceControl(QObject):
         polled(): some 30 times a second while there is a device: time to read its log or its recording.
         live_changed(on): whether the arm follows the window.
         limits_changed(): a tracked path was dropped, for the limits of the servos count now, or do not any more.
+        left(robot): another arm was taken; this one was connected, with its own limits again.
     """
 
     state_changed = Signal(object)
     polled = Signal()
     live_changed = Signal(bool)
     limits_changed = Signal()
+    left = Signal(object)
 
     def __init__(
         self, session: Session, motion: MotionControl, preferences: Preferences, parent: QObject | None = None
@@ -57,7 +60,7 @@ class DeviceControl(QObject):
         self._session, self._motion, self._preferences = session, motion, preferences
         self._driver: ArmDriver | None = None
         self._state: DriverState | None = None
-        self._wide: FloatArray | None = None  # the arm's own limits, while those of the servos count too
+        self._limits: ServoLimits | None = None  # while those of the servos count
         self._live = False
         self._showing = False
         self._to_wake: list[int | None] = []  # one after the other: the driver takes a jump at a time
@@ -115,8 +118,9 @@ class DeviceControl(QObject):
                 "error",
             )
             return
+        limits = ServoLimits(robot)
         try:
-            narrowed = within_servos(robot)
+            narrowed = limits.narrow(robot)
             address = completed(url, _name_on_disk(robot), language)
             taps = has_potentiometers(address)
             driver = ArmDriver(robot, address, baud=baud, language=language, potentiometers=taps)
@@ -125,7 +129,9 @@ class DeviceControl(QObject):
             return
         self._driver = driver
         self.title = "Virtual arm" if is_virtual(url) else url
-        self._narrow(narrowed)
+        self._limits = limits
+        if narrowed is not robot:
+            self._take_limits(_NARROW, narrowed)
         self._tell(driver.connect())
         self._timer.start()
         self.poll()
@@ -142,6 +148,7 @@ class DeviceControl(QObject):
         if driver is None:
             return
         self._timer.stop()
+        self._to_wake = []  # what was confirmed for this arm is not for the next one
         self.set_live(False)
         driver.close()
         self._widen()
@@ -168,10 +175,11 @@ class DeviceControl(QObject):
 
     def at_rest(self, experiment: Experiment) -> Experiment:
         """The experiment as it is without a device: its arm with its own limits."""
-        wide, robot = self._wide, experiment.robot
-        if wide is None or len(wide) != robot.dof or np.array_equal(wide, robot.limits):
+        if self._limits is None:
             return experiment
-        return experiment.with_robot(self._with_limits(robot, wide))
+        robot = self._limits.alone(experiment.robot)
+        same = np.array_equal(robot.limits, experiment.robot.limits)
+        return experiment if same else experiment.with_robot(robot)
 
     # --- moving ----------------------------------------------------------------------------------------------------
 
@@ -229,7 +237,8 @@ class DeviceControl(QObject):
         if motion is None:
             self._session.say("There is no motion yet: track a line, a trajectory, or run a program.", "error")
             return
-        against = objections(self._session.robot, motion, self._units, table=self.table)
+        here = self._state.commanded_q  # from there it goes to the motion's start
+        against = objections(self._session.robot, motion, self._units, table=self.table, here=here)
         if against:
             self._session.say("Not run on the arm: " + " ".join(against), "error")
             return
@@ -261,13 +270,14 @@ class DeviceControl(QObject):
 
     def use_servos(self, servos: Sequence[Servo], gripper: GripperServo | None, text: str) -> None:
         """Take another calibration: of a copy of the user's own, in one undo step, and on the wire."""
-        wide = self._with_limits(self._session.robot, self._wide)
-        robot = replace(own_copy(wide), servos=tuple(servos), gripper_servo=gripper)
-        if self._driver is not None:
-            if not self._tell(self._driver.use_servos(robot.servos, gripper)):
-                return
+        shown = self._session.robot
+        alone = shown if self._limits is None else self._limits.alone(shown)
+        robot = replace(own_copy(alone), servos=tuple(servos), gripper_servo=gripper)
+        if self._driver is not None and not self._tell(self._driver.use_servos(robot.servos, gripper)):
+            return
+        if self._limits is not None:
             try:
-                self._wide, robot = robot.limits, within_servos(robot)
+                robot = self._limits.narrow(robot)
             except RobotDefinitionError as problem:
                 self._session.say(str(problem), "error")
                 return
@@ -285,28 +295,36 @@ class DeviceControl(QObject):
             self._session.say(refusal.sentence, "error")
         return refusal is None
 
-    def _narrow(self, narrowed: Robot) -> None:
-        self._wide = self._session.robot.limits
-        if not np.array_equal(self._wide, narrowed.limits):
-            self._take_limits("Limits of arm and servos", narrowed)
+    def _narrow_again(self) -> None:
+        """Undo, or an edit, has given the arm limits that its servos do not have."""
+        if self._limits is None:
+            return
+        try:
+            narrowed = self._limits.narrow(self._session.robot)
+        except RobotDefinitionError as problem:
+            self._session.say(str(problem), "error")
+            return
+        if narrowed is self._session.robot:
+            return
+        if self._session.undo_stack.redoText() == _NARROW:
+            self._session.undo_stack.redo()
+        else:
+            self._take_limits(_NARROW, narrowed)
+        self._session.say("While an arm is connected the limits of its servos count. Disconnect it to go beyond them.")
 
     def _widen(self) -> None:
-        wide, self._wide = self._wide, None
-        robot = self._session.robot
-        if wide is not None and len(wide) == robot.dof and not np.array_equal(wide, robot.limits):
-            self._take_limits("Limits of the arm alone", self._with_limits(robot, wide))
+        limits, self._limits = self._limits, None
+        if limits is None:
+            return
+        robot = limits.alone(self._session.robot)
+        if not np.array_equal(robot.limits, self._session.robot.limits):
+            self._take_limits("Limits of the arm alone", robot)
 
     def _take_limits(self, text: str, robot: Robot) -> None:
         tracked = self._session.tracking is not None
         self._session.edit(text, self._session.experiment.with_robot(robot))
         if tracked:
             self.limits_changed.emit()
-
-    @staticmethod
-    def _with_limits(robot: Robot, limits: FloatArray | None) -> Robot:
-        for index, (lower, upper) in enumerate(limits if limits is not None else ()):
-            robot = robot.with_joint(index, lower=float(lower), upper=float(upper))
-        return robot
 
     def _can_follow(self) -> bool:
         state = self._state
@@ -350,8 +368,12 @@ class DeviceControl(QObject):
             return
         if not self._takes_wiring(after.robot):
             self._driver.stop("Another arm was taken.")
-            self._wide = None
+            limits, self._limits = self._limits, None
             self.disconnect_device()
+            if limits is not None:
+                self.left.emit(limits.alone(before.robot))
+        elif after.robot is not before.robot:
+            QTimer.singleShot(0, self, self._narrow_again)  # the undo that may have brought it must end first
         elif self._live and not self._showing and after.q is not before.q:
             self._tell(self._driver.stream(after.q))
 
@@ -359,10 +381,11 @@ class DeviceControl(QObject):
         """Whether the driver can go on with the arm that is shown: undo may bring back another calibration of it."""
         assert self._driver is not None
         driven = self._driver.robot
+        if original_name(robot) != original_name(driven) or robot.dof != driven.dof or not robot.servos:
+            return False
         if (robot.servos, robot.gripper_servo) == (driven.servos, driven.gripper_servo):
             return True
-        same_arm = original_name(robot) == original_name(driven) and robot.dof == driven.dof and bool(robot.servos)
-        return same_arm and self._tell(self._driver.use_servos(robot.servos, robot.gripper_servo))
+        return self._tell(self._driver.use_servos(robot.servos, robot.gripper_servo))
 
 
 def _tells_more(before: DriverState, after: DriverState) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 from rvsim.kinematics.clearance import clearance
 from rvsim.lab.findings import length_words
 from rvsim.lab.sentences import Units, joint_amount
+from rvsim.motion import joint_move
 from rvsim.playback.player import Playable
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -18,11 +19,37 @@ _ROUNDING = 1e-9
 _FULL = 1.02  # of a joint's speed, which is measured between moments
 
 
-def objections(robot: Robot, motion: Playable, units: Units, *, table: float | None = 0.0) -> tuple[str, ...]:
-    """Sentences, none if the motion may run; `table` is its height [m], None where there is none."""
+def objections(
+    robot: Robot, motion: Playable, units: Units, *, table: float | None = 0.0, here: FloatArray | None = None
+) -> tuple[str, ...]:
+    """Sentences, none if the motion may run.
+
+    Args:
+        table: its height [m], None where there is none.
+        here: (n,) from where the arm goes calmly to the motion's start; None or NaN: nobody knows.
+    """
     times = np.linspace(0.0, motion.duration, _MOMENTS)
-    q = np.asarray(motion.q(times), dtype=np.float64).reshape(_MOMENTS, robot.dof)
-    return (*_limits(robot, times, q, units), *_speeds(robot, times, q), *_clearances(robot, times, q, table, units))
+    q = np.asarray(motion.q(times), dtype=np.float64)
+    if q.shape != (_MOMENTS, robot.dof):
+        return (f"It is a motion of {q.shape[-1]} joints, and the arm has {robot.dof}.",)
+    return (
+        *_on_the_way(robot, here, q[0], table, units),
+        *_limits(robot, times, q, units),
+        *_speeds(robot, times, q),
+        *_clearances(robot, times, q, table, units),
+    )
+
+
+def _on_the_way(
+    robot: Robot, here: FloatArray | None, start: FloatArray, table: float | None, units: Units
+) -> Iterator[str]:
+    """What would be touched before the motion begins; its limits are between those of its ends, its speed is calm."""
+    if here is None or not np.isfinite(here).all():
+        return
+    move = joint_move(robot, here, start)
+    times = np.linspace(0.0, move.duration, _MOMENTS)
+    for sentence in _clearances(robot, times, move.q(times), table, units):
+        yield f"On the way to its start: {sentence[0].lower()}{sentence[1:]}"
 
 
 def _limits(robot: Robot, times: FloatArray, q: FloatArray, units: Units) -> Iterator[str]:

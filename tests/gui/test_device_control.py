@@ -1,0 +1,152 @@
+"""The window's arm on the wire: what it must not do when arms, limits and motions change while it is connected."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+from rvsim.device.driver.state import DriverState
+from rvsim.device.wire_log import WireLog
+from rvsim.experiment import Experiment, LineTask
+from rvsim.files import load_robot
+from rvsim.gui.device_control import DeviceControl
+from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.preferences import Preferences
+from rvsim.gui.session import Session
+from rvsim.motion import joint_move
+from rvsim.robot import Robot
+from rvsim.robot.servos import within_servos
+
+LONG_MS = 30_000
+SHOULDER = 1
+
+
+def _experiment(robot: Robot) -> Experiment:
+    return Experiment(robot, robot.home, LineTask((0.11, 0.0, 0.13), (0.23, 0.0, 0.33)))
+
+
+class Desk:
+    """A session, the device of its window, and all that was said."""
+
+    def __init__(self, qtbot: QtBot) -> None:
+        preferences = Preferences()
+        self.qtbot, self.session = qtbot, Session(_experiment(load_robot("al5b")), _experiment)
+        self.device = DeviceControl(self.session, MotionControl(self.session, preferences), preferences)
+        self.said: list[str] = []
+        self.session.said.connect(lambda text, _: self.said.append(text))
+
+    def wait(self, holds: Callable[[DriverState], bool]) -> None:
+        def reached() -> bool:
+            self.device.poll()
+            return self.device.state is not None and holds(self.device.state)
+
+        self.qtbot.waitUntil(reached, timeout=LONG_MS)
+
+    def connect(self, url: str = "al5b://") -> None:
+        self.device.connect_to(url, baud=115200)
+        self.wait(lambda state: state.phase == "asleep")
+
+    def wake(self) -> None:
+        self.device.wake_all()
+        self.wait(lambda state: state.phase == "ready" and all(state.awake) and state.gripper_awake)
+
+    @property
+    def log(self) -> WireLog:
+        assert self.device.driver is not None
+        return self.device.driver.log
+
+
+@pytest.fixture
+def desk(qtbot: QtBot) -> Iterator[Desk]:
+    made = Desk(qtbot)
+    yield made
+    made.device.close()
+
+
+def moves(log: WireLog) -> list[bytes]:
+    return [entry.data for entry in log.since(0)[1] if entry.data.startswith(b"#")]
+
+
+def test_joints_that_were_still_to_wake_do_not_wake_on_the_next_arm(desk: Desk) -> None:
+    desk.connect()
+    desk.device.wake_all()
+    desk.connect()
+    before = desk.log.count
+    desk.wait(lambda _: desk.log.count > before + 4)  # it has been asked twice how it is
+    assert desk.device.state is not None
+    assert desk.device.state.phase == "asleep"
+    assert moves(desk.log) == []
+
+
+def test_another_size_of_arm_lets_go_of_the_device_though_its_servos_are_the_same(desk: Desk) -> None:
+    desk.connect()
+    other = load_robot("al5d")
+    left: list[Robot] = []
+    desk.device.left.connect(left.append)
+    assert other.servos == desk.session.robot.servos
+    desk.session.use_robot(other)
+    assert desk.device.state is None
+    np.testing.assert_array_equal(desk.session.robot.limits, other.limits)
+    np.testing.assert_array_equal(left[0].limits, load_robot("al5b").limits)
+
+
+def test_undo_does_not_take_the_servos_limits_away_while_an_arm_is_connected(desk: Desk) -> None:
+    wide = desk.session.robot
+    desk.connect()
+    held = within_servos(wide).limits
+    desk.session.move_to(desk.session.q + 0.05, "there")
+    for _ in range(3):
+        desk.session.undo_stack.undo()
+        desk.qtbot.waitUntil(lambda: np.array_equal(desk.session.robot.limits, held), timeout=LONG_MS)
+    assert desk.session.undo_stack.canRedo()
+    desk.device.disconnect_device()
+    np.testing.assert_array_equal(desk.session.robot.limits, wide.limits)
+
+
+def edited(robot: Robot) -> Robot:
+    return robot.with_joint(SHOULDER, lower=0.4, home=1.2)
+
+
+def test_limits_that_a_person_sets_while_an_arm_is_connected_stay(desk: Desk) -> None:
+    wide = desk.session.robot
+    desk.connect()
+    desk.session.edit("Limits", desk.session.experiment.with_robot(edited(desk.session.robot)))
+    desk.device.disconnect_device()
+    np.testing.assert_array_equal(desk.session.robot.limits, edited(wide).limits)
+    np.testing.assert_array_equal(desk.session.robot.home, edited(wide).home)
+
+
+def test_a_home_that_the_servos_cannot_reach_is_there_again_afterwards(desk: Desk) -> None:
+    servos = list(desk.session.robot.servos)
+    servos[SHOULDER] = replace(servos[SHOULDER], min_us=1600.0, max_us=1700.0)
+    odd = replace(desk.session.robot, servos=tuple(servos))
+    desk.session.edit("Servos", desk.session.experiment.with_robot(odd))
+    desk.connect()
+    assert not np.array_equal(desk.session.robot.home, odd.home)
+    desk.device.disconnect_device()
+    np.testing.assert_array_equal(desk.session.robot.home, odd.home)
+
+
+def test_the_way_to_the_start_of_a_motion_is_checked_too(desk: Desk) -> None:
+    robot = desk.session.robot
+    here, start = np.radians([0.0, 60.0, -100.0, -90.0, 0.0]), np.radians([0.0, 60.0, -125.0, 45.0, 0.0])
+    desk.session.move_to(here, "there")
+    desk.connect()
+    desk.wake()
+    desk.device.motion.load(joint_move(robot, start, start + 0.02), "Beyond the table")
+    desk.device.run_motion()
+    assert "On the way to its start: at" in desk.said[-1]
+    assert "touch the table" in desk.said[-1]
+
+
+def test_a_motion_of_another_arm_is_refused_with_a_sentence(desk: Desk) -> None:
+    desk.connect()
+    desk.wake()
+    other = load_robot("ur5e")
+    desk.device.motion.load(joint_move(other, other.home, other.home + 0.1), "Another arm's")
+    desk.device.run_motion()
+    assert any("joints" in text for text in desk.said)
