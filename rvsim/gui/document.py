@@ -18,6 +18,7 @@ from rvsim.gui.document_state import port_section, show_state, state_of
 from rvsim.gui.file_drop import FileDrop
 from rvsim.gui.file_problem import tell_problem
 from rvsim.gui.recent_files import RecentFiles
+from rvsim.gui.theme import set_role
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -113,6 +114,7 @@ class Document(QObject):
         buttons = QMessageBox.StandardButton
         box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
         box.setDefaultButton(buttons.Save)
+        set_role(box.button(buttons.Save), primary=True)
         box.setEscapeButton(buttons.Cancel)
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.finished.connect(lambda answer: self._answered(answer, then))

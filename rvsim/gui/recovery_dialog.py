@@ -16,6 +16,8 @@ from rvsim.gui.document import Document
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
 
+_UNREADABLE = "a copy that cannot be read"
+
 
 def offer_recovery(document: Document, window: QWidget) -> None:
     """Offer what crashes have left, if there is any."""
@@ -32,8 +34,10 @@ class RecoveryDialog(QDialog):
         self.setObjectName("recovery_dialog")
         self.setWindowTitle("Recover")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._document, self._left = document, list(left)
-        title = QLabel("rvsim was not closed the last time. Your work is still there.")
+        self._document = document
+        told = sorted(((_words(one), one) for one in left), key=lambda pair: _UNREADABLE in pair[0])
+        self._left = [one for _, one in told]
+        title = QLabel("rvsim ended without being closed. Your work is still here.")
         title.setWordWrap(True)
         set_role(title, role="title")
         words = QLabel("Choose what to go on with. Your files are as you last saved them: nothing is replaced yet.")
@@ -42,8 +46,9 @@ class RecoveryDialog(QDialog):
         self.list = QListWidget()
         self.list.setObjectName("recovery_list")
         self.list.setAccessibleName("What can be recovered")
-        self.list.addItems([_words(leftover) for leftover in self._left])
-        self.list.setCurrentRow(0)
+        self.list.setStyleSheet("QListWidget::item { padding: 6px 8px; }")
+        self.list.addItems([words for words, _ in told])
+        self.list.currentTextChanged.connect(self._show_chosen)
         self.list.itemActivated.connect(lambda _: self._recover())
         column = QVBoxLayout(self)
         column.setContentsMargins(20, 16, 20, 16)
@@ -51,7 +56,8 @@ class RecoveryDialog(QDialog):
         for widget in (title, words, self.list):
             column.addWidget(widget)
         column.addLayout(self._buttons())
-        self.resize(520, 300)
+        self.list.setCurrentRow(0)
+        self.resize(480, 320)
 
     def _buttons(self) -> QHBoxLayout:
         tip = "Throw this copy away; a file that you saved stays"
@@ -66,6 +72,9 @@ class RecoveryDialog(QDialog):
         row.addWidget(self.later_button)
         row.addWidget(self.recover_button)
         return row
+
+    def _show_chosen(self, words: str) -> None:
+        self.recover_button.setEnabled(_UNREADABLE not in words)
 
     def _recover(self) -> None:
         if self._document.recover(self._left[self.list.currentRow()]):
@@ -96,9 +105,9 @@ class RecoveryDialog(QDialog):
 
 def _words(leftover: Leftover) -> str:
     name = leftover.original.stem if leftover.original else "Untitled"
-    when = datetime.fromtimestamp(leftover.when).strftime("%Y-%m-%d %H:%M:%S")
+    when = datetime.fromtimestamp(leftover.when).strftime("%Y-%m-%d %H:%M")
     try:
         arm = load_session(leftover.file).state.experiment.robot.title
     except RvsimError:
-        arm = "cannot be read"
-    return f"{name} \u2013 {arm}, {when}"
+        arm = _UNREADABLE
+    return f"{name}\n{arm}, {when}"

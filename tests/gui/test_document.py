@@ -305,7 +305,7 @@ def test_after_kill_9_the_work_is_offered_again_once_and_recovered(
         process.send_signal(signal.SIGKILL)
     offer_recovery(window.document, window)
     dialog = window.findChild(RecoveryDialog)
-    assert dialog.list.item(0).text().startswith("lab – Mitsubishi RV-M1, ")
+    assert dialog.list.item(0).text().startswith("lab\nMitsubishi RV-M1, ")
     assert leftovers() == (), "another window that starts now is not offered the same"
     dialog.recover_button.click()
     assert window.session.experiment.poses[0].name == "afternoon's work"
