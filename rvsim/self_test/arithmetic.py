@@ -184,7 +184,10 @@ def _smooth_motion() -> str:
 
 def _files() -> str:
     """In a folder whose name is not plain, as students have them."""
+    from rvsim.experiment import SessionState
     from rvsim.files import load_robot, robot_text, save_robot
+    from rvsim.files.session_file import load_session, save_session, session_bytes
+    from rvsim.lab import default_experiment
 
     with tempfile.TemporaryDirectory(prefix="rvsim-self-test-") as folder:
         place = Path(folder) / "ملف Größe 1"
@@ -193,7 +196,11 @@ def _files() -> str:
             save_robot(robot, place / f"{robot.name}.toml")
             again = load_robot(place / f"{robot.name}.toml")
             expect(robot_text(again) == robot_text(robot), f"{robot.name} is another arm when it is read back")
-    return "every arm saved in a new folder and read back"
+            state = SessionState(default_experiment(robot))
+            save_session(state, place / "student.rvsim")
+            kept = session_bytes(load_session(place / "student.rvsim").state)
+            expect(kept == session_bytes(state), f"a session with {robot.name} is another one when it is read back")
+    return "every arm, and a session with each, saved in a new folder and read back"
 
 
 def _device() -> str:

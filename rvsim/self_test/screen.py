@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -38,6 +39,7 @@ class Screen:
             "OpenGL": self.opengl,
             "formulas and help": self.texts,
             "animation": self.animation,
+            "report": self.report,
         }
 
     def window(self) -> str:
@@ -145,6 +147,26 @@ class Screen:
             frames = getattr(file, "n_frames", 1)
             expect(frames == made.total, f"{ending} has {frames} frames instead of {made.total}")
         return f"{made.total} frames as {', '.join(FORMATS)}"
+
+    def report(self) -> str:
+        """As a student hands it in: pages, tables, pictures, script; on one screen, for it takes seconds."""
+        from PySide6.QtGui import QGuiApplication
+
+        from rvsim import load_robot
+        from rvsim.gui.report.bundle import Order, write_bundle
+        from rvsim.lab import default_experiment
+        from rvsim.lab.report import Cover, Study
+
+        if QGuiApplication.platformName() != "offscreen":
+            raise SkippedError("it is made off-screen")
+        study = Study(default_experiment(load_robot("rv-m1")))
+        with tempfile.TemporaryDirectory(prefix="rvsim-self-test-") as folder:
+            for _ in write_bundle(study, Order(Path(folder) / "report", Cover("Self-test", "", "", ""))):
+                pass
+            files = sorted((Path(folder) / "report").iterdir())
+            pages = [file.read_bytes()[:5] for file in files if file.suffix == ".pdf"]
+        expect(pages == [b"%PDF-"], f"there is no PDF among {', '.join(file.name for file in files)}")
+        return f"{len(files)} files, a PDF among them"
 
     def close(self) -> None:
         """End what runs."""
