@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
@@ -34,17 +33,12 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _report(options: argparse.Namespace) -> int:
-    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    from PySide6.QtGui import QGuiApplication
-
     from rvsim.experiment import Notes, SessionState
     from rvsim.files.session_file import session_bytes
-    from rvsim.gui.report.bundle import Order, write_bundle
-    from rvsim.gui.theme import load_fonts
+    from rvsim.gui.report.bundle import Order
+    from rvsim.gui.report.headless import write_report
     from rvsim.lab.report import Cover, title_of
 
-    application = QGuiApplication.instance() or QGuiApplication(["rvsim"])
-    load_fonts()
     study = _study(options)
     today = date.today()
     day = options.date or f"{today.day} {today:%B %Y}"
@@ -52,11 +46,9 @@ def _report(options: argparse.Namespace) -> int:
     folder = Path(options.out or f"report-{study.robot.name}").absolute()
     kept = replace(study.experiment, notes=Notes(options.name, options.notes))
     session = session_bytes(SessionState(kept))
-    for _ in write_bundle(study, Order(folder, cover, None, options.animation, options.zip, session)):
-        pass
+    write_report(study, Order(folder, cover, None, options.animation, options.zip, session))
     files = sorted(file.name for file in folder.iterdir())
     print_result(options, {"folder": str(folder), "files": files}, f"Written: {folder} ({', '.join(files)})")
-    del application  # it had to live until here
     return DONE
 
 

@@ -62,7 +62,7 @@ def test_the_report_of_a_source_arm_says_what_the_kernel_computes(name: str) -> 
     length = 1.0 if robot.length_unit == "unit" else 1e3
     np.testing.assert_allclose(shown[:3, 3], length * T[:3, 3], atol=5.1e-3)
     np.testing.assert_allclose(numbers_of(formula(document, "J").rights[0]), J, atol=5.1e-5)
-    wrench = study.experiment.load.wrench + [0.0, 0.0, 0.5 * 9.80665, 0.0, 0.0, 0.0]
+    wrench = np.add(study.experiment.load.wrench, (0.0, 0.0, 0.5 * 9.80665, 0.0, 0.0, 0.0))
     torques = numbers_of(formula(document, "\\tau").rights[-1])[:, 0]
     np.testing.assert_allclose(torques, joint_torques(robot, q, wrench), atol=5.1e-4)
     assert study.inverse is not None

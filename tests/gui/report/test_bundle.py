@@ -1,0 +1,145 @@
+"""The bundle of a report: all of it or nothing, needs nothing else, and says who made it."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from PySide6.QtGui import QPainterPath
+
+from rvsim import load_robot
+from rvsim.errors import FileWriteError
+from rvsim.gui.report.artist import PageArtist, path_data
+from rvsim.gui.report.bundle import Order, free_folder, write_bundle
+from rvsim.gui.report.pages import paginated
+from rvsim.gui.report.strips import Strip
+from rvsim.lab import default_experiment
+from rvsim.lab.repairs import motion_of, path_of
+from rvsim.lab.report import Cover, Study
+from rvsim.motion import track
+
+COVER = Cover("Laboratory 3", "Layla Haddad", "22 November 2026", "It went well.")
+
+
+def study_of(name: str) -> Study:
+    experiment = default_experiment(load_robot(name))
+    tracking = track(experiment.robot, path_of("line", experiment), near=experiment.q)
+    return Study(experiment, tracking, motion_of(tracking, experiment))
+
+
+def test_a_bundle_is_complete_and_needs_nothing_else(qapp, tmp_path: Path) -> None:
+    folder = tmp_path / "report"
+    order = Order(folder, COVER, frozenset({"pose", "jacobian", "path", "motion"}), zipped=True, session=b"{}")
+    shares = [progress.share for progress in write_bundle(study_of("rv-1a"), order)]
+    assert shares == sorted(shares)
+    assert shares[-1] < 1.0
+    names = {"report.html", "report.pdf", "script.py", "path.csv", "motion.csv", "experiment.rvsim"}
+    assert {file.name for file in folder.iterdir()} == names
+    assert {file.name for file in tmp_path.iterdir()} == {"report", "report.zip"}
+    assert set(zipfile.ZipFile(tmp_path / "report.zip").namelist()) == names
+    _check_page((folder / "report.html").read_text(encoding="utf-8"), str(tmp_path))
+    _check_paper((folder / "report.pdf").read_bytes())
+
+
+def _check_page(page: str, here: str) -> None:
+    root = ElementTree.fromstring(page.removeprefix("<!DOCTYPE html>"))
+    assert "http" not in page
+    assert "file:" not in page
+    assert here not in page
+    assert all(image.get("src", "").startswith("data:image/png;base64,") for image in root.iter("img"))
+    names = [element.get("id") for element in root.iter() if element.get("id")]
+    used = {element.get("href", "#")[1:] for element in root.iter("use")}
+    assert len(names) == len(set(names))
+    assert used == set(names)
+    assert COVER.author in page
+
+
+def _check_paper(paper: bytes) -> None:
+    assert paper.startswith(b"%PDF-")
+    assert len(re.findall(rb"/Type\s*/Page\b", paper)) >= 3
+    assert COVER.author.encode() in paper or COVER.author.encode("utf-16-be") in paper
+
+
+def test_nothing_is_written_where_nothing_can_be(qapp, tmp_path: Path) -> None:
+    study = Study(default_experiment(load_robot("planar")))
+    there = tmp_path / "there"
+    there.mkdir()
+    for folder, word in ((there, "already"), (tmp_path / "no" / "such", "no folder")):
+        with pytest.raises(FileWriteError, match=word):
+            next(write_bundle(study, Order(folder, COVER)))
+    assert list(tmp_path.iterdir()) == [there]
+    assert list(there.iterdir()) == []
+    assert free_folder(tmp_path, "there") == tmp_path / "there-2"
+
+
+def test_giving_up_leaves_nothing_behind(qapp, tmp_path: Path) -> None:
+    work = write_bundle(study_of("planar"), Order(tmp_path / "report", COVER, animation=True))
+    for _ in range(5):
+        next(work)
+    assert len(list(tmp_path.iterdir())) == 1
+    work.close()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_disk_that_is_full_leaves_nothing_behind(qapp, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    work = write_bundle(study_of("planar"), Order(tmp_path / "report", COVER))
+    with pytest.raises(FileWriteError, match="no space left"):
+        list(work)
+    assert list(tmp_path.iterdir()) == []
+
+
+# --- pages ---------------------------------------------------------------------------------------------------------
+
+
+def strip(height: float, **more: object) -> Strip:
+    return Strip(height, lambda *_: None, **more)
+
+
+def test_what_belongs_together_is_not_parted_and_nothing_leaves_the_page() -> None:
+    strips = [strip(30.0, above=5.0, keep=number % 3 != 2) for number in range(30)]
+    pages = paginated(strips, 200.0)
+    assert sum(len(page) for page in pages) == 30
+    for page in pages:
+        assert len(page) % 3 == 0
+        assert page[0].y == 0.0
+        assert page[-1].y + page[-1].strip.height <= 200.0
+
+
+def test_a_table_that_goes_on_has_its_head_again() -> None:
+    head = strip(10.0)
+    rows = [strip(20.0, again=(head,)) for _ in range(20)]
+    pages = paginated([head._replace(keep=True), *rows], 100.0)
+    assert len(pages) > 3
+    assert all(page[0].strip.height == 10.0 for page in pages)
+
+
+def test_a_figure_that_does_not_fit_waits_while_the_text_goes_on() -> None:
+    figure = strip(60.0, floats=True)
+    pages = paginated([strip(50.0), figure, *(strip(10.0) for _ in range(8))], 100.0)
+    assert [len(page) for page in pages] == [6, 4]
+    assert pages[1][0].strip is figure
+
+
+# --- formulas of the page ------------------------------------------------------------------------------------------
+
+
+def test_a_formula_outlines_each_letter_once(qapp) -> None:
+    drawn = ElementTree.fromstring(PageArtist().formula("a+a+a = 3\\,a"))
+    assert len(list(drawn.iter("use"))) == 7 + 1
+    assert len(list(drawn.iter("path"))) == 4
+    assert drawn.get("aria-label") == "a+a+a = 3 a"
+
+
+def test_outlines_are_paths_of_svg(qapp) -> None:
+    path = QPainterPath()
+    path.moveTo(0.0, 1.0)
+    path.cubicTo(1.0, 2.0, 3.0, 4.0, 5.0, 6.5)
+    path.lineTo(7.0, 8.0)
+    assert path_data(path) == "M0 1C1 2 3 4 5 6.5L7 8"
