@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import Qt
 
+from rvsim.gui.document_state import state_of
 from rvsim.gui.quantities import shown_units
 from rvsim.gui.report.dialog import ReportDialog
 from rvsim.lab.report import Study
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 def ask_report(window: MainWindow) -> ReportDialog:
     """Open the dialog about the experiment as it is now."""
-    dialog = ReportDialog(window, window.session, window.preferences, study_of(window))
+    dialog = ReportDialog(window, window.session, window.preferences, study_of(window), state_of(window))
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     dialog.show()
     return dialog

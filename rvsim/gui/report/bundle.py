@@ -93,13 +93,14 @@ def _draft_beside(folder: Path) -> Path:
 
 def _put_in_place(draft: Path, order: Order) -> None:
     draft.chmod(0o755 & ~_umask())
-    if order.zipped:
-        archive = Path(shutil.make_archive(str(draft) + "-zip", "zip", draft))
-        try:
+    archive = Path(shutil.make_archive(f"{draft}-zip", "zip", draft)) if order.zipped else None
+    try:
+        os.rename(draft, order.folder)
+        if archive is not None:
             os.replace(archive, zip_of(order.folder))
-        finally:
+    finally:
+        if archive is not None:
             archive.unlink(missing_ok=True)
-    os.rename(draft, order.folder)
 
 
 def _umask() -> int:

@@ -45,12 +45,14 @@ _MISSING = {
 class ReportDialog(QDialog):
     """Does not stop the work in the window: the experiment as it was when this opened is the one reported on."""
 
-    def __init__(self, parent: QWidget, session: Session, preferences: Preferences, study: Study) -> None:
+    def __init__(
+        self, parent: QWidget, session: Session, preferences: Preferences, study: Study, state: SessionState
+    ) -> None:
         super().__init__(parent)
         self.setObjectName("report_dialog")
         self.setWindowTitle("Lab report")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._session, self._preferences, self._study = session, preferences, study
+        self._session, self._preferences, self._study, self._state = session, preferences, study, state
         self._work: Iterator[Progress] | None = None
         self._done: Path | None = None
         self._slice = QTimer(self, interval=0)
@@ -160,14 +162,14 @@ class ReportDialog(QDialog):
     def order(self) -> Order:
         """All that is wanted."""
         cover = self.cover
-        experiment = replace(self._study.experiment, notes=Notes(cover.author, cover.notes))
+        kept = replace(self._state, experiment=replace(self._state.experiment, notes=Notes(cover.author, cover.notes)))
         return Order(
             Path(self.folder_box.text().strip()).expanduser(),
             cover,
             frozenset(name for name, box in self.parts.items() if box.isChecked()),
             self.animation.isChecked(),
             self.zipped.isChecked(),
-            session_bytes(SessionState(experiment)),
+            session_bytes(kept),
         )
 
     # --- work ------------------------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from rvsim import load_robot
+from rvsim.experiment import SessionState
 from rvsim.files.session_file import session_of
 from rvsim.gui.app import build_window
 from rvsim.gui.preferences import Preferences
@@ -24,7 +25,8 @@ def dialog(qtbot: QtBot, tmp_path: Path) -> Iterator[ReportDialog]:
     experiment = default_experiment(load_robot("planar"))
     session, parent = Session(experiment, default_experiment), QWidget()
     qtbot.addWidget(parent)
-    yield prepared(ReportDialog(parent, session, Preferences(), Study(experiment)), tmp_path)
+    made = ReportDialog(parent, session, Preferences(), Study(experiment), SessionState(experiment))
+    yield prepared(made, tmp_path)
     parent.close()
 
 
