@@ -203,10 +203,9 @@ class DeviceControl(QObject):
         self._to_wake = asleep
         self._go_on(self._state)
 
-    def send_pose(self, seconds: float | None = None) -> None:
-        """Go calmly to the pose that is shown."""
-        if self._driver is not None:
-            self._tell(self._driver.move_to(self._session.q, seconds))
+    def send_pose(self) -> bool:
+        """Go calmly to the pose that is shown; whether the arm does."""
+        return self._driver is not None and self._tell(self._driver.move_to(self._session.q))
 
     @property
     def differs(self) -> bool:
@@ -254,11 +253,12 @@ class DeviceControl(QObject):
 
     def stop(self, reason: str) -> None:
         """Emergency stop: it latches until `reset`. The motion in the window stops too."""
-        if self._driver is not None:
-            self._driver.stop(reason)
+        refusal = self._driver.stop(reason) if self._driver is not None else None
         self._motion.pause()
         self.set_live(False)
         self.poll()
+        if refusal is not None:
+            self._session.say(f"The stop does not reach the arm: cut its power. {refusal}", "error")
 
     def reset(self) -> None:
         """Lead out of the latched stop, deliberately."""
@@ -331,9 +331,7 @@ class DeviceControl(QObject):
         if state is None or not state.connected or state.phase == "stopped" or not all(state.awake):
             self._session.say("The arm can follow once every joint is awake and no stop is latched.", "error")
             return False
-        if not self._is_at(self._session.q):
-            self.send_pose()
-        return True
+        return self._is_at(self._session.q) or self.send_pose()
 
     def _is_at(self, q: FloatArray) -> bool:
         if self._state is None:

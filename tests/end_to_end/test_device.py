@@ -6,6 +6,7 @@ Everything goes through object names. The driver has a thread of its own, so the
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from rvsim.device.virtual.faults import Fault
 from rvsim.gui.app import build_window
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
+from rvsim.robot.arrays import FloatArray
 
 LONG_MS = 30_000
 
@@ -104,12 +106,26 @@ def test_a_joint_is_woken_alone_and_the_next_is_asked_for(qtbot: QtBot, window: 
     assert "asleep" in message(window)
 
 
-def test_a_line_runs_and_the_plug_is_pulled(qtbot: QtBot, window: MainWindow) -> None:
+def test_a_bridge_that_measures_is_not_said_to_jump(qtbot: QtBot, window: MainWindow) -> None:
+    window.device.connect_to("al5b://", baud=115200, language="bridge")
+    wait(qtbot, window, lambda state: state.phase == "asleep")
+    text = window.findChild(QLabel, "device_wake_text")
+    assert text is not None
+    assert text.text() == "The base will go to 0.0°."
+
+
+def test_a_line_is_run_to_its_end_and_then_the_plug_is_pulled(qtbot: QtBot, window: MainWindow) -> None:
     connect(qtbot, window)
     wake(qtbot, window)
+    window.session.edit("Quickly", replace(window.session.experiment, path_seconds=1.0))
     window.tracker.track_line()
     press(qtbot, window, "device_run")
-    wait(qtbot, window, lambda state: state.phase == "running" and state.time > 0.2)
+    wait(qtbot, window, lambda state: state.phase == "running")
+    state = wait(qtbot, window, lambda state: state.phase == "ready")
+    np.testing.assert_allclose(state.commanded_q, window.session.q, atol=np.radians(1.0))
+    assert message(window).startswith("The arm has done the motion.")
+    press(qtbot, window, "device_run")
+    wait(qtbot, window, lambda state: state.phase == "running")
     arm = window.device.virtual
     assert arm is not None
     arm.faults = arm.faults.switched(Fault.PORT_VANISHES)
@@ -121,22 +137,53 @@ def test_a_line_runs_and_the_plug_is_pulled(qtbot: QtBot, window: MainWindow) ->
     assert not any(state.awake)
 
 
-def test_a_line_is_run_to_its_end_and_the_window_follows(qtbot: QtBot, window: MainWindow) -> None:
-    connect(qtbot, window)
-    wake(qtbot, window)
-    window.tracker.track_line()
-    press(qtbot, window, "device_run")
-    wait(qtbot, window, lambda state: state.phase == "running")
-    state = wait(qtbot, window, lambda state: state.phase == "ready")
-    np.testing.assert_allclose(state.commanded_q, window.session.q, atol=np.radians(1.0))
+class Low:
+    """Slowly from home to a place below the table."""
+
+    duration = 4.0
+
+    def __init__(self, home: FloatArray) -> None:
+        self.home = home
+
+    def q(self, t: object) -> FloatArray:
+        share = np.asarray(t, dtype=np.float64)[..., None] / self.duration
+        return np.asarray(self.home + share * (np.radians([0.0, 10.0, -50.0, 0.0, 0.0]) - self.home))
 
 
-def test_the_stop_latches_and_reset_leads_out(qtbot: QtBot, window: MainWindow) -> None:
+def test_an_arm_that_is_awake_refuses_follows_stops_and_is_let_go(qtbot: QtBot, window: MainWindow) -> None:
     connect(qtbot, window)
     wake(qtbot, window)
-    window.tracker.track_line()
+    refuses_what_would_hurt(qtbot, window)
+    follows_and_is_held_at_its_limits(qtbot, window)
+    stops_for_good_until_it_is_reset(qtbot, window)
+    assert window.device.driver is not None
+    log = window.device.driver.log
+    sent = log.count
+    window.close()
+    assert any(b"STOP" in entry.data for entry in log.since(sent)[1] if entry.direction == "→")
+
+
+def refuses_what_would_hurt(qtbot: QtBot, window: MainWindow) -> None:
+    window.motion.load(Low(window.session.robot.home), "Reach for the table")
     press(qtbot, window, "device_run")
-    wait(qtbot, window, lambda state: state.phase == "running" and state.time > 0.2)
+    assert "would touch the table" in message(window)
+    assert window.device.state is not None
+    assert window.device.state.phase == "ready"
+
+
+def follows_and_is_held_at_its_limits(qtbot: QtBot, window: MainWindow) -> None:
+    live = window.findChild(QCheckBox, "device_live")
+    assert live is not None
+    live.click()
+    wanted = np.radians([20.0, 100.0, -80.0, 10.0, 30.0])
+    window.session.move_to(wanted, "there")
+    wait(qtbot, window, lambda state: bool(np.abs(state.commanded_q - wanted).max() < 0.01))
+    window.session.edit("Ignore", window.session.experiment.at(np.radians([20.0, 100.0, -80.0, 10.0, 120.0])))
+    state = wait(qtbot, window, lambda state: bool(state.clamped))
+    assert state.clamped == ("wrist rotate",)
+
+
+def stops_for_good_until_it_is_reset(qtbot: QtBot, window: MainWindow) -> None:
     press(qtbot, window, "emergency_stop_button")
     wait(qtbot, window, lambda state: state.phase == "stopped")
     assert message(window).startswith("The stop button was pressed.")
@@ -162,51 +209,9 @@ def test_escape_stops_even_in_a_dialog(qtbot: QtBot, window: MainWindow) -> None
     assert message(window).startswith("Esc was pressed.")
 
 
-def test_what_would_hurt_is_not_run(qtbot: QtBot, window: MainWindow) -> None:
-    connect(qtbot, window)
-    wake(qtbot, window)
-
-    class Low:
-        duration = 4.0
-
-        def q(self, t: object) -> object:
-            share = np.asarray(t, dtype=np.float64)[..., None] / self.duration
-            low = np.radians([0.0, 10.0, -50.0, 0.0, 0.0])
-            return window.session.robot.home + share * (low - window.session.robot.home)
-
-    window.motion.load(Low(), "Reach for the table")  # type: ignore[arg-type]
-    press(qtbot, window, "device_run")
-    assert "would touch the table" in message(window)
-    assert window.device.state is not None
-    assert window.device.state.phase == "ready"
-
-
-def test_the_arm_follows_the_window_and_is_held_at_its_limits(qtbot: QtBot, window: MainWindow) -> None:
-    connect(qtbot, window)
-    wake(qtbot, window)
-    live = window.findChild(QCheckBox, "device_live")
-    assert live is not None
-    live.click()
-    wanted = np.radians([20.0, 100.0, -80.0, 10.0, 30.0])
-    window.session.move_to(wanted, "there")
-    wait(qtbot, window, lambda state: bool(np.abs(state.commanded_q - wanted).max() < 0.01))
-    window.session.edit("Ignore", window.session.experiment.at(np.radians([20.0, 100.0, -80.0, 10.0, 120.0])))
-    state = wait(qtbot, window, lambda state: bool(state.clamped))
-    assert state.clamped == ("wrist rotate",)
-
-
 def test_another_arm_lets_go_of_the_device(qtbot: QtBot, window: MainWindow) -> None:
     connect(qtbot, window)
     window.session.use_robot(window.library["ur5e"])
     assert window.device.state is None
     window.device.connect_to("al5b://")
     assert "no servos" in message(window)
-
-
-def test_closing_the_window_stops_the_arm(qtbot: QtBot, window: MainWindow) -> None:
-    connect(qtbot, window)
-    wake(qtbot, window)
-    log = window.device.driver.log if window.device.driver else None
-    assert log is not None
-    window.close()
-    assert any(b"STOP" in entry.data for entry in log.since(0)[1] if entry.direction == "→")

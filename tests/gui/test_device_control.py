@@ -10,6 +10,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from rvsim.device.driver.state import DriverState
+from rvsim.device.virtual.faults import Fault
 from rvsim.device.wire_log import WireLog
 from rvsim.experiment import Experiment, LineTask
 from rvsim.files import load_robot
@@ -141,6 +142,27 @@ def test_the_way_to_the_start_of_a_motion_is_checked_too(desk: Desk) -> None:
     desk.device.run_motion()
     assert "On the way to its start: at" in desk.said[-1]
     assert "touch the table" in desk.said[-1]
+
+
+def test_an_arm_that_cannot_go_to_the_pose_is_not_followed_with(desk: Desk) -> None:
+    desk.connect()
+    assert not desk.device.send_pose()
+    desk.wake()
+    beyond = desk.session.q + np.array([0.0, 0.0, 0.0, 0.0, 1.5])
+    desk.session.edit("Ignore the limits", desk.session.experiment.at(beyond))
+    desk.device.set_live(True)
+    assert not desk.device.live
+    assert "arm and servo together allow" in desk.said[-1]
+
+
+def test_a_stop_that_cannot_reach_the_arm_is_told(desk: Desk) -> None:
+    desk.connect()
+    arm = desk.device.virtual
+    assert arm is not None
+    arm.faults = arm.faults.switched(Fault.PORT_VANISHES)
+    desk.wait(lambda state: state.phase == "lost")
+    desk.device.stop("Esc was pressed.")
+    assert desk.said[-1].startswith("The stop does not reach the arm: cut its power.")
 
 
 def test_a_motion_of_another_arm_is_refused_with_a_sentence(desk: Desk) -> None:

@@ -221,7 +221,7 @@ class ArmDriver:
                 self._lose(f"The port {self.url} is lost: {problem}")
             except Exception as problem:  # whatever it is: the arm must not be left without a driver
                 _logger.exception("the driver's thread")
-                self._say_last(self._core.last_words)
+                self._stop_without_core()
                 self._lose(f"Something went wrong inside the driver: {problem!r}. The port is closed.")
             self._wake.wait(_TICK if self._state.phase not in ("disconnected", "lost") else _IDLE_TICK)
             self._wake.clear()
@@ -273,18 +273,18 @@ class ArmDriver:
         self._through = max(self._through, time.monotonic()) + len(data) * BITS / self.baud
 
     def _leave(self) -> None:
-        self._say_last(lambda: b"")
-        self._close_port()
-
-    def _say_last(self, words: Callable[[], bytes]) -> None:
-        """Let a last stop out, and these words: a port that is closed may throw away what it has not sent."""
+        """Let a last stop out, then close: a port that is closed may throw away what it has not sent."""
         with contextlib.suppress(Exception):  # it may be gone already
             self._write_urgent()
-            if data := words():
-                self._write_at_once(data)
             left = self._through - time.monotonic()
             if left > 0.0:
                 time.sleep(left + _BUFFERED)
+        self._close_port()
+
+    def _stop_without_core(self) -> None:
+        with contextlib.suppress(Exception):
+            self._write_at_once(self._core.last_words())
+        self._leave()
 
     def _lose(self, sentence: str) -> None:
         with self._lock:

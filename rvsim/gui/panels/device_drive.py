@@ -161,7 +161,9 @@ class DrivePage(InspectPage):
         if state is None or not able:
             return
         if state.phase in ("asleep", "ready"):
-            self.wake.show_state(robot, self._session.q, state, self._device.virtual is not None)
+            virtual, driver = self._device.virtual is not None, self._device.driver
+            gentle = driver is not None and driver.language == "bridge"
+            self.wake.show_state(robot, self._session.q, state, virtual=virtual, gentle=gentle)
         self._show_drive(robot, state)
 
     def _show_head(self, robot: Robot, state: DriverState | None) -> None:

@@ -23,6 +23,10 @@ _WHY_VIRTUAL = (
     "The controller does not know yet where its servos are: the first move of each jumps at full speed. "
     "With a real arm you would hold it near the pose that is shown."
 )
+_WHY_GENTLE = (
+    "The encoder bridge measures where the joints are: each begins there and goes slowly to the pose that is shown. "
+    "Keep clear, and wake one joint after the other."
+)
 
 
 class WakeSection(QWidget):
@@ -38,7 +42,9 @@ class WakeSection(QWidget):
         self.title, self.why, self.what = wrapped_label("title"), wrapped_label("muted"), wrapped_label()
         self.what.setObjectName("device_wake_text")
         set_role(self.what, level="warning")
-        self.wake = button("device_wake", "Wake", "Let this joint jump to the pose that is shown", self._on_wake)
+        self.wake = button(
+            "device_wake", "Wake", "Move this joint for the first time, to the pose that is shown", self._on_wake
+        )
         self.skip = button("device_wake_skip", "Skip", "Leave this joint asleep for now", self._on_skip)
         self.all = button(
             "device_wake_all", "Wake all", "All joints at once: nothing can be hurt on a virtual arm",
@@ -60,8 +66,12 @@ class WakeSection(QWidget):
         """From the first joint again: another connection."""
         self._skipped = 0
 
-    def show_state(self, robot: Robot, q: FloatArray, state: DriverState, virtual: bool) -> None:
-        """Ask for the next joint that sleeps; hidden when none does."""
+    def show_state(self, robot: Robot, q: FloatArray, state: DriverState, *, virtual: bool, gentle: bool) -> None:
+        """Ask for the next joint that sleeps; hidden when none does.
+
+        Args:
+            gentle: the board knows where a joint is that has not been woken.
+        """
         asleep = [number for number, awake in enumerate(_awake(robot, state)) if not awake]
         self.setVisible(state.connected and state.phase != "stopped" and bool(asleep))
         if not asleep:
@@ -71,17 +81,19 @@ class WakeSection(QWidget):
         count = len(_awake(robot, state))
         name = robot.joint_names[self._joint] if self._joint < robot.dof else "gripper"
         self.title.setText(f"Wake the arm: {count - len(asleep)} of {count} awake")
-        self.why.setText(_WHY_VIRTUAL if virtual else _WHY)
-        self.what.setText(self._says(robot, q, name))
+        self.why.setText(_WHY_GENTLE if gentle else _WHY_VIRTUAL if virtual else _WHY)
+        self.what.setText(self._says(robot, q, name, gentle))
         self.wake.setText(f"Wake {name}")
         self.all.setVisible(virtual)
 
-    def _says(self, robot: Robot, q: FloatArray, name: str) -> str:
+    def _says(self, robot: Robot, q: FloatArray, name: str, gentle: bool) -> str:
         if self._joint == robot.dof:
             assert robot.gripper_servo is not None
-            return f"The gripper will open at once ({robot.gripper_servo.open_us:.0f} µs)."
-        pulse = clamped_pulses(robot.servos, pulses_of(robot.servos, q))[self._joint]
+            return "The gripper will open at once" + ("." if gentle else f" ({robot.gripper_servo.open_us:.0f} µs).")
         angle = format_quantity(float(q[self._joint]), joint_kind(robot, self._joint), self._preferences)
+        if gentle:
+            return f"The {name} will go to {angle}."
+        pulse = clamped_pulses(robot.servos, pulses_of(robot.servos, q))[self._joint]
         return f"The {name} will jump to {angle} ({pulse:.0f} µs)."
 
     def _on_wake(self) -> None:
