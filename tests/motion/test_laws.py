@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rvsim.errors import SettingError, ShapeError
@@ -138,6 +138,7 @@ def test_splines_pass_their_poses_with_continuous_acceleration(via, gaps, v0, v1
     np.testing.assert_allclose(free.coefficients[-1, 3], free.coefficients[-2, 3], atol=1e-6)
 
 
+@settings(max_examples=25)
 @given(poses, poses, limit_values, limit_values)
 def test_the_shortest_time_touches_a_limit_and_exceeds_none(q0, q1, speed, acceleration) -> None:
     def law(duration: float) -> PiecewisePolynomial:
