@@ -65,6 +65,7 @@ class PageStack(QWidget):
         made.setObjectName(f"{page.name}_page_button")
         made.setText(page.title)
         made.setToolTip(page.tip)
+        made.setStatusTip(f"{page.tip}. F1 explains this page.")
         made.setCheckable(True)
         made.setProperty("role", "page")
         made.setSizePolicy(made.sizePolicy().horizontalPolicy().Expanding, made.sizePolicy().verticalPolicy())
