@@ -6,8 +6,10 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rvsim.lab.findings import SYMBOLS, WORDS, finding_sentence, summary_sentence
+from rvsim.lab.report.chart import Chart, Curve
 from rvsim.lab.report.figures import ASSUMED, DASH, Measures, number, scientific
 from rvsim.lab.report.pictures import path_picture
 from rvsim.lab.report.section_motion import fine_unit
@@ -16,7 +18,10 @@ from rvsim.lab.report.values import Block, Column, Figure, Items, Paragraph, Run
 from rvsim.lab.sentences import advice_sentence, tracking_sentence
 from rvsim.motion import Tracking
 from rvsim.motion.honesty import Peak, Report
+from rvsim.robot.arrays import FloatArray
 
+ASKED, REACHED, MISSED = "#0072B2", "#B5179E", "#B54708"
+BoolArray = NDArray[np.bool_]
 _LAWS = {"quintic": "quintic", "cubic": "cubic", "trapezoid": "trapezoidal"}
 
 
@@ -38,6 +43,7 @@ def path_section(study: Study, measures: Measures) -> Section:
                 else "The path that the tool draws.",
                 (path_picture(study, tracking),),
             ),
+            _flat(tracking, measures),
             *_findings(study, report),
             *_peaks(report, measures),
         ),
@@ -62,6 +68,27 @@ def _facts(study: Study, tracking: Tracking, measures: Measures) -> Table:
         rows += _between(study, measures)
     columns = (Column("", "left"), Column("value"), Column("", "left"))
     return Table("The path in numbers; deviations over the points that were reached.", columns, tuple(rows))
+
+
+def _flat(tracking: Tracking, measures: Measures) -> Figure:
+    """Along the two axes of the base in which the path is widest, both in the same scale."""
+    points = tracking.path.points
+    first, second = sorted(np.argsort(np.ptp(points, axis=0))[-2:].tolist())
+    factor, unit = measures.length.factor, measures.length.unit
+    lifted = np.zeros(len(points), dtype=bool) if tracking.path.pen_up is None else tracking.path.pen_up
+
+    def curve(name: str, color: str, places: FloatArray, there: BoolArray, dash: int) -> Curve:
+        seen = np.where((there & ~lifted)[:, None], places * factor, np.nan)
+        return Curve(name, color, seen[:, first], seen[:, second], dash)
+
+    everywhere = np.ones(len(points), dtype=bool)
+    curves = [curve("asked for", ASKED, points, everywhere, 0)]
+    curves.append(curve("reached", REACHED, tracking.actual, everywhere, 2))
+    if not tracking.complete:
+        curves.append(curve("out of reach", MISSED, points, ~tracking.reached, 1))
+    across, up = (f"{'xyz'[axis]} [{unit}]" for axis in (first, second))
+    chart = Chart("The path, flat", across, up, tuple(curves), height=190.0, equal=True)
+    return Figure(f"The path along {'xyz'[first]} and {'xyz'[second]} of the base, both in the same scale.", (chart,))
 
 
 def _between(study: Study, measures: Measures) -> list[tuple[Words, ...]]:
