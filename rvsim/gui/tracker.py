@@ -170,7 +170,8 @@ class PathTracker(QObject):
     @property
     def trajectory(self) -> Trajectory | None:
         """The motion along what is tracked, None when nothing is."""
-        return self._done[-1].trajectory if self._session.tracking is not None else None
+        shown = self._session.tracking is not None and self._done  # neither, while it is being taken out
+        return self._done[-1].trajectory if shown else None
 
     def _time_again(self, experiment: Experiment) -> None:
         """Another law or time for what is shown: nothing has to be solved for that."""
