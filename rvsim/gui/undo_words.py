@@ -5,6 +5,16 @@ from __future__ import annotations
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QUndoStack
 
+from rvsim.experiment import TrajectoryTask
+
+_TURNED = "Turn the tool along the trajectory"
+_TRAJECTORY_EDITS = {
+    "shape": "Edit the shape of the trajectory",
+    "placement": "Place the trajectory",
+    "height": "Set the height of the drawing plane",
+    **dict.fromkeys(("orientation", "turn_from", "turn_to", "pitch"), _TURNED),
+}
+
 
 class UndoWords(QObject):
     """Keeps the texts of the two actions true to the stack."""
@@ -20,6 +30,12 @@ class UndoWords(QObject):
 
     def _show_redo(self, text: str) -> None:
         self._redo.setText(undo_words("Redo", text))
+
+
+def trajectory_words(before: TrajectoryTask, after: TrajectoryTask) -> str:
+    """What was changed in a trajectory, as the text of an undo step."""
+    changed = (words for name, words in _TRAJECTORY_EDITS.items() if getattr(before, name) is not getattr(after, name))
+    return next(changed, "Edit the trajectory")
 
 
 def undo_words(verb: str, text: str) -> str:

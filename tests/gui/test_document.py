@@ -8,17 +8,18 @@ import signal
 import subprocess
 import sys
 import textwrap
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QApplication, QFileDialog, QMenu, QMessageBox, QWidget
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMenu, QMessageBox, QWidget
 from pytestqt.qtbot import QtBot
 
 from rvsim.cli.arguments import named_session
-from rvsim.experiment import SessionState
+from rvsim.experiment import DeviceSettings, SessionState
 from rvsim.files import load_robot, save_robot
 from rvsim.files.session_file import load_session, session_bytes
 from rvsim.gui.app import build_window
@@ -31,12 +32,34 @@ from rvsim.gui.recovery_dialog import RecoveryDialog, offer_recovery
 Button = QMessageBox.StandardButton
 
 
+@pytest.fixture(scope="module")
+def shared(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[MainWindow]:
+    """One window for the tests that do not close it: to make one takes longer than they do."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("RVSIM_USER_FOLDER", str(tmp_path_factory.mktemp("user")))
+        made = build_window(Preferences())
+    made.preferences.set("animated", False)
+    yield made
+    made.close()
+    made.deleteLater()
+
+
 @pytest.fixture
-def window(qtbot: QtBot) -> MainWindow:
-    return made_window(qtbot)
+def window(shared: MainWindow) -> MainWindow:
+    """The shared one as it is after a start."""
+    for dialog in shared.findChildren(QDialog):
+        dialog.close()
+    shared.preferences.set("live", True)
+    shared.preferences.set("recent", "")
+    shared.document.asks = False
+    shared.session.use_robot(shared.library["rv-m1"])
+    shared.document._port.show_settings(DeviceSettings())
+    shared.document.new()
+    return shared
 
 
-def made_window(qtbot: QtBot) -> MainWindow:
+@pytest.fixture
+def own_window(qtbot: QtBot) -> MainWindow:
     made = build_window(Preferences())
     made.preferences.set("animated", False)
     qtbot.addWidget(made)
@@ -67,12 +90,12 @@ def set_up(window: MainWindow) -> None:
 
 
 def test_a_saved_session_opens_the_same_in_another_window_and_saves_to_the_same_bytes(
-    qtbot: QtBot, window: MainWindow, tmp_path: Path
+    window: MainWindow, own_window: MainWindow, tmp_path: Path
 ) -> None:
     set_up(window)
     file = tmp_path / "first.rvsim"
     assert window.document.save_to(file)
-    other = made_window(qtbot)
+    other = own_window
     assert other.document.open(file)
     found, wanted = other.session.experiment, window.session.experiment
     np.testing.assert_array_equal(found.q, wanted.q)
@@ -106,7 +129,8 @@ def test_the_title_says_name_arm_and_whether_there_is_something_to_save(window: 
     np.testing.assert_array_equal(window.session.q, window.session.robot.home)
 
 
-def test_before_work_is_lost_it_asks_and_does_as_it_is_told(window: MainWindow, tmp_path: Path) -> None:
+def test_before_work_is_lost_it_asks_and_does_as_it_is_told(own_window: MainWindow, tmp_path: Path) -> None:
+    window = own_window
     window.document.asks = True
     window.document.new()
     assert window.findChild(QMessageBox) is None, "nothing to lose, nothing to ask"
@@ -262,7 +286,10 @@ def test_what_is_typed_but_not_drawn_and_notes_are_undone_too(window: MainWindow
 # --- safety copies ---------------------------------------------------------------------------------------------------
 
 
-def test_a_safety_copy_is_made_of_what_is_unsaved_and_goes_when_it_is_saved(window: MainWindow, tmp_path: Path) -> None:
+def test_a_safety_copy_is_made_of_what_is_unsaved_and_goes_when_it_is_saved(
+    own_window: MainWindow, tmp_path: Path
+) -> None:
+    window = own_window
     autosave = window.document.autosave
     autosave.tick()
     assert autosave.file is None, "nothing to lose, no copy"
@@ -294,8 +321,9 @@ CRASHING = """
 
 
 def test_after_kill_9_the_work_is_offered_again_once_and_recovered(
-    qtbot: QtBot, window: MainWindow, tmp_path: Path
+    qtbot: QtBot, own_window: MainWindow, tmp_path: Path
 ) -> None:
+    window = own_window
     copies = tmp_path / "rvsim-user" / "autosave"
     environment = {**os.environ, "RVSIM_AUTOSAVE_SECONDS": "0.05", "QT_QPA_PLATFORM": "offscreen"}
     command = [sys.executable, "-c", textwrap.dedent(CRASHING), str(tmp_path / "lab.rvsim")]

@@ -18,6 +18,12 @@ _CALM, _QUICK, _SECONDS = "calm", "quick", "seconds"
 _TIMES = {_CALM: "Calm", _QUICK: "As quick as possible", _SECONDS: "In seconds"}
 _FIRST_SECONDS = 10.0
 
+_EDITS = {
+    "law": "Take another law of motion",
+    "path_seconds": "Set how long paths take",
+    "ease": "Choose where to slow down",
+}
+
 
 class PaceSection(QGroupBox):
     """Law and time; another choice times again what is tracked, without solving it again."""
@@ -72,4 +78,5 @@ class PaceSection(QGroupBox):
             self._edit("", path_seconds=wanted)
 
     def _edit(self, merge: str, **changes: Any) -> None:
-        self._session.edit("Edit how fast", replace(self._session.experiment, **changes), merge=merge)
+        text = next(_EDITS[name] for name in changes)
+        self._session.edit(text, replace(self._session.experiment, **changes), merge=merge)

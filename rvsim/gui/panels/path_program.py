@@ -175,23 +175,23 @@ class ProgramPage(PathPage):
         """Move the chosen one up (negative) or down."""
         goal = self._chosen + by
         if self._chosen >= 0 and 0 <= goal < len(self.program):
-            self._put("Shift move", shifted(self.program, self._chosen, by), goal)
+            self._put(f"Shift move {self._chosen + 1}", shifted(self.program, self._chosen, by), goal)
 
     def duplicate(self) -> None:
         """The chosen one once more behind it."""
         if self._chosen >= 0:
-            self._put("Duplicate move", duplicated(self.program, self._chosen), self._chosen + 1)
+            self._put(f"Duplicate move {self._chosen + 1}", duplicated(self.program, self._chosen), self._chosen + 1)
 
     def delete(self) -> None:
         """Take the chosen one out."""
         if self._chosen >= 0:
             left = removed(self.program, self._chosen)
-            self._put("Delete move", left, min(self._chosen, len(left) - 1))
+            self._put(f"Delete move {self._chosen + 1}", left, min(self._chosen, len(left) - 1))
 
     def _on_edited(self, move: Move, field: str) -> None:
         if self._chosen >= 0:
             after = replaced(self.program, self._chosen, move)
-            self._put("Edit move", after, self._chosen, merge=f"program {self._chosen} {field}")
+            self._put(f"Edit move {self._chosen + 1}", after, self._chosen, merge=f"program {self._chosen} {field}")
 
     def _put(self, text: str, program: Program, chosen: int, merge: str = "") -> None:
         self._chosen = chosen

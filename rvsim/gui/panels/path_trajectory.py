@@ -26,6 +26,7 @@ from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker
+from rvsim.gui.undo_words import trajectory_words
 from rvsim.gui.widgets import button, combo, form
 from rvsim.lab.named_paths import named_path, path_entry, path_names
 from rvsim.lab.shape_paths import SHAPES, is_shape, shape_of
@@ -204,7 +205,8 @@ class TrajectorySection(QGroupBox):
     def _on_height(self, value: float) -> None:
         self._put(replace(self._session.experiment.trajectory, height=value), "trajectory height")
 
-    def _put(self, task: TrajectoryTask, merge: str, text: str = "Edit trajectory") -> None:
+    def _put(self, task: TrajectoryTask, merge: str, text: str = "") -> None:
+        text = text or trajectory_words(self._session.experiment.trajectory, task)
         self._session.edit(text, replace(self._session.experiment, trajectory=task), merge=merge)
 
 
