@@ -48,5 +48,10 @@ def _no_widgets_left() -> Iterator[None]:
     yield
     if "PySide6.QtWidgets" in sys.modules:
         from PySide6.QtCore import QCoreApplication, QEvent
+        from PySide6.QtWidgets import QApplication
 
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+        app = QApplication.instance()
+        if isinstance(app, QApplication) and app.styleSheet():
+            app.setProperty("theme", None)
+            app.setStyleSheet("")  # under it the next window would be dressed piece by piece, which takes twice as long

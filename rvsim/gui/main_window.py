@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QMenu, QSplitte
 from rvsim.experiment import Experiment
 from rvsim.files import find_user_folder
 from rvsim.gui.actions import make_actions
+from rvsim.gui.collector import RubbishCollector
 from rvsim.gui.commands import Commands
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.device_scene import DeviceScene
@@ -78,6 +79,7 @@ class MainWindow(QMainWindow):
         super().__init__()
         self.setObjectName("main_window")
         self.session, self.preferences, self.library = session, preferences, library
+        self.collector = RubbishCollector(self)  # before any worker
         self.motion = MotionControl(session, preferences, self)
         self.tracker = PathTracker(session, self.motion, self)
         self.device = DeviceControl(session, self.motion, preferences, self)
@@ -246,6 +248,7 @@ class MainWindow(QMainWindow):
         self.scene_view.painted.connect(self._show_frame_time)
         self.device.state_changed.connect(self._show_device)
         self.device.limits_changed.connect(self.tracker.track_again)
+        self.device.left.connect(self.library.remember)
         self.commands.connect_all()
 
     # --- what is shown ---------------------------------------------------------------------------------------------
@@ -329,7 +332,9 @@ class MainWindow(QMainWindow):
         super().showEvent(event)
         if not self._laid_out:
             self._laid_out = True
+            QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest)  # or the next one takes the widths back
             self._size_docks()
+            QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest)
 
     def window_layout(self) -> tuple[QByteArray, QByteArray]:
         """Geometry and dock layout, as they are now."""
@@ -343,16 +348,19 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Remember the layout; stop what moves. Where work would be lost, ask first."""
+        self.motion.pause()
+        if self.device.moves:  # before any question is asked
+            self.device.stop("The window was to be closed.")
         if not self.document.may_close():
             event.ignore()
             return
-        self.motion.pause()
         self.device.close()
         self.served.end()
         self.tracker.close()
         self.target.close()
         self.laboratory.stop()
         self.docks.close_workers()
+        self.collector.end()
         geometry, layout = self.window_layout()
         self.preferences.keep_window_state("geometry", geometry)
         self.preferences.keep_window_state("layout", layout)
