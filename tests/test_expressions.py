@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rvsim.errors import ExpressionError
-from rvsim.expressions import evaluate, evaluate_in
+from rvsim.expressions import evaluate, evaluate_formula, evaluate_in
 
 
 @pytest.mark.parametrize(
@@ -54,3 +55,16 @@ def test_another_kind_of_unit_is_refused(unit: str, text: str, words: str) -> No
     with pytest.raises(ExpressionError) as problem:
         evaluate_in(unit, text)
     assert words in str(problem.value)
+
+
+@pytest.mark.parametrize("text", ["9**3999999", "2^99999", "exp(9999)"])
+def test_what_is_too_large_is_refused_at_once(text: str) -> None:
+    with pytest.raises(ExpressionError, match=r"too large|not finite"):
+        evaluate(text)
+
+
+@pytest.mark.parametrize("text", ["x = 5", "1; 2", "1\n2"])
+def test_only_one_expression_is_taken(text: str) -> None:
+    for read in (evaluate, lambda formula: evaluate_formula(formula, np.zeros(1))):
+        with pytest.raises(ExpressionError, match="cannot be read"):
+            read(text)

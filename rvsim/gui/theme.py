@@ -150,7 +150,10 @@ def _prepare(app: QApplication, name: str, presentation: bool) -> Theme:
     theme, asked = THEMES[name], f"{name} {presentation}"
     if app.property("prepared_theme") != asked:
         app.setProperty("prepared_theme", asked)
-        app.setStyle("Fusion")
+        # Undressed and dressed anew it is ready in a quarter of the time that another dress over this one takes.
+        app.setStyleSheet("")
+        if app.style().name() != "fusion":
+            app.setStyle("Fusion")
         app.setPalette(_palette(theme))
         app.setFont(_font(app, presentation))
         app.setProperty("text_scale", text_scale(presentation))

@@ -282,6 +282,8 @@ class JointsPanel(QWidget):
 
     def _make_rows(self) -> None:
         for row in self._rows:
+            for speaker in (row, row.box):  # half-typed numbers of the last arm must not move this one
+                speaker.blockSignals(True)
             self._joints_column.removeWidget(row)
             row.setParent(None)  # so that nobody who looks for a joint's box by name finds one of the last arm
             row.deleteLater()

@@ -109,7 +109,8 @@ class BestWaySection(QGroupBox):
         return forward_kinematics(experiment.robot, known.get(name, experiment.robot.home))
 
     def go(self) -> None:
-        """Play the chosen way."""
+        """Play the chosen way, if it still begins where the arm is."""
+        self.refresh()  # the key that asks may come while the page lies behind others and has not looked since
         way = self._chosen()
         if way is not None and way.possible:
             self._motion.load(way.moves[way.law], f"Best way to {self._name}")

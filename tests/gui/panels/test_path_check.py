@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from rvsim.experiment import TrajectoryTask
+from rvsim.files import load_robot
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.path_check import CheckPage
 from rvsim.gui.panels.path_check_rows import FindingRow
@@ -129,6 +130,15 @@ def test_the_best_way_home_is_found_and_gone(page_of: Make) -> None:
     home = forward_kinematics(session.robot, session.robot.home)
     np.testing.assert_allclose(forward_kinematics(session.robot, session.q), home, atol=1e-9)
     page._motion.pause()
+
+
+def test_no_way_of_another_arm_is_gone(page_of: Make) -> None:
+    page = page_of("ur5e", "")
+    page.best_way.search()
+    page.hide()
+    page._session.use_robot(load_robot("rv-m1"))
+    page.best_way.go()
+    assert page._motion.player.trajectory is None
 
 
 def test_what_was_found_is_of_the_pose_where_it_was_asked(page_of: Make) -> None:
