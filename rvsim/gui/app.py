@@ -44,6 +44,7 @@ def build_window(preferences: Preferences | None = None, *, robot: str = "", ren
     prepare_theme(wishes)
     window = MainWindow(session, wishes, library, choice)
     wear_theme(wishes)
+    window.dress_narrowest()
     window.say_welcome()
     return window
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QByteArray, QElapsedTimer, QEvent, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent, QStatusTipEvent
-from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QMenu, QSplitter, QToolBar, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QMenu, QPushButton, QSplitter, QToolBar, QWidget
 
 from rvsim.experiment import Experiment
 from rvsim.files import find_user_folder
@@ -326,6 +326,16 @@ class MainWindow(QMainWindow):
         if not geometry.isEmpty():
             self.restoreGeometry(geometry)
         self._laid_out = not layout.isEmpty() and self.restoreState(layout, _STATE_VERSION)
+
+    def dress_narrowest(self) -> None:
+        """Dress the buttons at the left before they are shown: undressed ones are wider, and would widen the window."""
+        for button in self.joints.findChildren(QPushButton):
+            button.ensurePolished()
+            button.updateGeometry()
+        layout = self.joints.layout()
+        assert layout is not None
+        layout.activate()
+        self.joints.updateGeometry()
 
     def showEvent(self, event: QShowEvent) -> None:
         """Give the docks their first widths: Qt heeds them only once the window has its size."""
