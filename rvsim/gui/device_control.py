@@ -17,8 +17,9 @@ from rvsim.gui.panels.user_robot import own_copy
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.servo_limits import ServoLimits
 from rvsim.gui.session import Session
-from rvsim.lab.before_running import objections
+from rvsim.lab.before_running import objections, what_is_touched
 from rvsim.lab.sentences import Units
+from rvsim.motion import joint_move
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.edits import original_name
@@ -204,8 +205,17 @@ class DeviceControl(QObject):
         self._go_on(self._state)
 
     def send_pose(self) -> bool:
-        """Go calmly to the pose that is shown; whether the arm does."""
-        return self._driver is not None and self._tell(self._driver.move_to(self._session.q))
+        """Go calmly to the pose that is shown, if nothing is touched on the way; whether the arm does."""
+        if self._driver is None or self._state is None:
+            return False
+        here, there = self._state.commanded_q, self._session.q
+        if np.isfinite(here).all() and not self._is_at(there):
+            move = joint_move(self._session.robot, here, there)
+            against = objections(self._session.robot, move, self._units, table=self.table)
+            if against:
+                self._session.say("Not sent: " + " ".join(against), "error")
+                return False
+        return self._tell(self._driver.move_to(there))
 
     @property
     def differs(self) -> bool:
@@ -373,7 +383,16 @@ class DeviceControl(QObject):
         elif after.robot is not before.robot:
             QTimer.singleShot(0, self, self._narrow_again)  # the undo that may have brought it must end first
         elif self._live and not self._showing and after.q is not before.q:
-            self._tell(self._driver.stream(after.q))
+            self._follow(after.q)
+
+    def _follow(self, q: FloatArray) -> None:
+        """Send the arm after the window, but into nothing."""
+        assert self._driver is not None
+        touched = what_is_touched(self._session.robot, q, table=self.table)
+        if touched:
+            self._session.warn(f"The arm waits: there it would touch {touched}.")
+        else:
+            self._tell(self._driver.stream(q))
 
     def _takes_wiring(self, robot: Robot) -> bool:
         """Whether the driver can go on with the arm that is shown: undo may bring back another calibration of it."""

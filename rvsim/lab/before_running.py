@@ -40,6 +40,14 @@ def objections(
     )
 
 
+def what_is_touched(robot: Robot, q: FloatArray, *, table: float | None = 0.0) -> str:
+    """What the arm would touch in a pose (n,): "the table", "itself", or "" for nothing."""
+    clear = clearance(robot, q, table=0.0 if table is None else table)
+    if table is not None and clear.table < 0.0:
+        return "the table"
+    return "itself" if clear.own < 0.0 else ""
+
+
 def _on_the_way(
     robot: Robot, here: FloatArray | None, start: FloatArray, table: float | None, units: Units
 ) -> Iterator[str]:

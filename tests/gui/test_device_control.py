@@ -152,7 +152,7 @@ def test_an_arm_that_cannot_go_to_the_pose_is_not_followed_with(desk: Desk) -> N
     desk.session.edit("Ignore the limits", desk.session.experiment.at(beyond))
     desk.device.set_live(True)
     assert not desk.device.live
-    assert "arm and servo together allow" in desk.said[-1]
+    assert "arm and servos stop at" in desk.said[-1]
 
 
 def test_a_stop_that_cannot_reach_the_arm_is_told(desk: Desk) -> None:
@@ -172,3 +172,20 @@ def test_a_motion_of_another_arm_is_refused_with_a_sentence(desk: Desk) -> None:
     desk.device.motion.load(joint_move(other, other.home, other.home + 0.1), "Another arm's")
     desk.device.run_motion()
     assert any("joints" in text for text in desk.said)
+
+
+def test_neither_a_pose_nor_the_live_window_takes_the_arm_into_the_table(desk: Desk) -> None:
+    desk.connect()
+    desk.wake()
+    low = np.radians([0.0, 10.0, -50.0, 0.0, 0.0])
+    desk.session.move_to(low, "Low")
+    assert not desk.device.send_pose()
+    assert desk.said[-1].startswith("Not sent: ")
+    assert "the table" in desk.said[-1]
+    desk.session.move_to(desk.session.robot.home, "Home")
+    desk.device.set_live(True)
+    desk.session.move_to(low, "Low")
+    assert desk.said[-1] == "The arm waits: there it would touch the table."
+    desk.device.poll()
+    assert desk.device.state is not None
+    np.testing.assert_allclose(desk.device.state.commanded_q, desk.session.robot.home, atol=1e-2)
