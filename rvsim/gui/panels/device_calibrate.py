@@ -182,7 +182,8 @@ class CalibratePage(InspectPage):
         if state is None:
             self.wake.hide()
             return
-        self.wake.show_state(self._session.robot, self._session.q, state, self._device.virtual is not None)
+        virtual = self._device.virtual is not None  # the bridge, which is gentle, is not calibrated here
+        self.wake.show_state(self._session.robot, self._session.q, state, virtual=virtual, gentle=False)
         self.wake.skip.hide()
         self.wake.wake.setEnabled(not state.busy)
 
