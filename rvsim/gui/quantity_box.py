@@ -13,6 +13,7 @@ from rvsim.expressions import evaluate_in
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number, without_unit
 
+_LONGEST = 400  # characters: more than any number or pose; ten million that are pasted must not be laid out
 _MARGINS = 4  # [pixels] that the line edit keeps left and right of its text
 _KEPT_DECIMALS = 12  # the spin box rounds to these; the text shows far fewer
 _STEPS = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1, Qt.Key.Key_PageUp: 10, Qt.Key.Key_PageDown: -10}
@@ -39,6 +40,7 @@ class QuantityBox(QDoubleSpinBox):
         self.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.setCorrectionMode(QAbstractSpinBox.CorrectionMode.CorrectToPreviousValue)
         self.setDecimals(_KEPT_DECIMALS)
+        self.lineEdit().setMaxLength(_LONGEST)
         self._show()
         self.valueChanged.connect(self._take)
         preferences.changed.connect(self._on_preference)

@@ -9,6 +9,7 @@ from itertools import zip_longest
 from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate_in
 
+_LONGEST = 2000  # characters: no pose is longer, and a clipboard may hold a whole book
 _BETWEEN = re.compile(r"\s*;\s*|,\s+|\s+")
 
 
@@ -18,6 +19,8 @@ def pose_values(text: str, units: Sequence[str]) -> tuple[float, ...]:
     They are separated by semicolons, blanks, tabs, or commas. A single comma between digits is a decimal comma: "60,5"
     is one number, "1,5; 2,5" are two.
     """
+    if len(text) > _LONGEST:
+        return ()
     bare = text.strip().strip("()[]{}").strip()
     spaced = _BETWEEN.split(bare)
     parts = bare.split(",") if len(spaced) == 1 and bare.count(",") > 1 else spaced

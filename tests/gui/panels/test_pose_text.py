@@ -27,3 +27,7 @@ def test_one_number_or_a_word_is_no_pose(text: str) -> None:
 def test_each_joint_has_its_own_unit() -> None:
     assert pose_values("30 0.1m", ["°", "mm"]) == (30.0, 100.0)
     assert pose_values("1 2 3", ["°", "mm"]) == (1.0, 2.0, 3.0), "too many are counted, not lost"
+
+
+def test_a_clipboard_full_of_numbers_is_no_pose() -> None:
+    assert pose_values("1,5 " * 1_000_000, DEGREES) == ()
