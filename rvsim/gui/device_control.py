@@ -34,6 +34,10 @@ if TYPE_CHECKING:
 _POLL_MS = 33
 _AT_START = 2e-3  # [rad]: a motion begins only where the arm is
 _CLOSED = "The window was closed."
+_RECOVERED = {
+    "stopped": "The stop is reset. Nothing has moved by that; Run begins a motion from its start.",
+    "lost": "Connecting again …",
+}
 _NARROW = "Limits of arm and servos"
 
 
@@ -368,6 +372,8 @@ class DeviceControl(QObject):
             self._session.say(state.reason, level)
         elif before is not None and (before.phase, state.phase) == ("running", "ready"):
             self._session.say("The arm has done the motion. The Measured page compares what came back.")
+        elif before is not None and before.phase in ("stopped", "lost") and state.phase not in ("stopped", "lost"):
+            self._session.say(_RECOVERED[before.phase])
         elif state.clamped:
             self._session.warn(f"Held at the limits of {', '.join(state.clamped)}: the arm does not go there.")
 

@@ -218,7 +218,7 @@ class ArmDriver:
             try:
                 self._turn()
             except (serial.SerialException, OSError) as problem:
-                self._lose(f"The port {self.url} is lost: {problem}")
+                self._lose(f"The port {self.url} is lost: {_said_once(problem, self.url)}")
             except Exception as problem:  # whatever it is: the arm must not be left without a driver
                 _logger.exception("the driver's thread")
                 self._stop_without_core()
@@ -242,7 +242,7 @@ class ArmDriver:
             )
             port.reset_input_buffer()
         except (serial.SerialException, OSError, ValueError, ImportError) as problem:
-            self._lose(f"The port {self.url} cannot be opened: {problem}")
+            self._lose(f"The port {self.url} cannot be opened: {_said_once(problem, self.url)}")
             return
         self._port, self._arm = port, getattr(port, "arm", None)
 
@@ -299,3 +299,13 @@ class ArmDriver:
         if port is not None:
             with contextlib.suppress(Exception):  # a port that is gone cannot be closed either
                 port.close()
+
+
+def _said_once(problem: Exception, url: str) -> str:
+    """What is wrong, without the port's name, which the sentence has said already."""
+    text = str(problem)
+    if isinstance(problem, OSError) and problem.strerror:
+        text = problem.strerror
+    for prefix in (f"could not open port {url}: ", f"{url}: "):
+        text = text.removeprefix(prefix)
+    return text if text.endswith(".") else f"{text}."

@@ -114,7 +114,9 @@ class DrivePage(InspectPage):
         column = QVBoxLayout(self.drive)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
-        for widget in (self.send, self.live, self.run, self.take):
+        self.hint = wrapped_label("muted")
+        self.hint.setObjectName("device_hint")
+        for widget in (self.hint, self.send, self.live, self.run, self.take):
             column.addWidget(widget)
         grip = QHBoxLayout()
         grip.setSpacing(8)
@@ -140,6 +142,7 @@ class DrivePage(InspectPage):
         self.gripper.sliderReleased.connect(self._on_grip)
         self.gripper.valueChanged.connect(self._on_gripper_value)
         device.state_changed.connect(lambda _: self._refresh_if_seen())
+        device.motion.loaded.connect(self._refresh_if_seen)
         device.live_changed.connect(self._show_live)
 
     def concerns(self, before: Experiment, after: Experiment) -> bool:
@@ -182,7 +185,10 @@ class DrivePage(InspectPage):
         awake = all(state.awake)
         self.send.setEnabled(free and awake and not self._device.live)
         self.live.setEnabled(free and awake)
-        self.run.setEnabled(awake and state.phase in ("ready", "streaming"))
+        loaded = self._device.motion.player.trajectory is not None
+        self.run.setEnabled(loaded and awake and state.phase in ("ready", "streaming"))
+        self.hint.setText(self._hint(state))
+        self.hint.setVisible(bool(self.hint.text()))
         self.take.setVisible(awake and not state.busy and self._device.differs)
         grips = robot.gripper_servo is not None
         self.gripper.setEnabled(grips and free and state.gripper_awake)
@@ -194,6 +200,16 @@ class DrivePage(InspectPage):
         fit_height(self.table)
         ghost = _GHOST_TRUE if self._device.virtual is not None else _GHOST_BACK
         self.measured.setText(f"{MEASURED_WORDS[state.measured_kind]} {ghost}")
+
+    def _hint(self, state: DriverState) -> str:
+        """Why the buttons below are grey, or what they would do now."""
+        if state.phase == "stopped":
+            return "Reset the stop first; nothing moves by that."
+        if not all(state.awake):
+            return "The arm can be sent somewhere when every joint is awake."
+        if self._device.motion.player.trajectory is None:
+            return "To run a motion, track a line or a trajectory first (Path)."
+        return ""
 
     def _show_live(self, on: bool) -> None:
         with QSignalBlocker(self.live):

@@ -39,6 +39,7 @@ class WakeSection(QWidget):
         super().__init__()
         self._preferences = preferences
         self._joint, self._skipped = 0, 0
+        self._asleep: set[int] = set()
         self.title, self.why, self.what = wrapped_label("title"), wrapped_label("muted"), wrapped_label()
         self.what.setObjectName("device_wake_text")
         set_role(self.what, level="warning")
@@ -74,6 +75,9 @@ class WakeSection(QWidget):
         """
         asleep = [number for number, awake in enumerate(_awake(robot, state)) if not awake]
         self.setVisible(state.connected and state.phase != "stopped" and bool(asleep))
+        if set(asleep) - self._asleep:  # joints that were awake have fallen asleep: a brown-out, another board
+            self.begin()
+        self._asleep = set(asleep)
         if not asleep:
             return
         later = [number for number in asleep if number >= self._skipped]
