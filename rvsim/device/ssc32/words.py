@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -34,18 +35,19 @@ Names: TypeAlias = Mapping[int, str]
 NO_NAMES: Names = MappingProxyType({})
 
 
-def sent_in_words(line: bytes, names: Names = NO_NAMES) -> str:
+def sent_in_words(line: bytes, names: Names = NO_NAMES, asleep: Set[int] = frozenset()) -> str:
     """What the board makes of these bytes, one line or several, with or without CR.
 
     Args:
         line: as it was sent.
         names: of the servos, by channel; the others are called "servo 7".
+        asleep: channels whose position the board does not know: they jump.
     """
     lines = line.removesuffix(b"\r").split(b"\r")
-    return "; ".join(_line(one, names) for one in lines)
+    return "; ".join(_line(one, names, asleep) for one in lines)
 
 
-def _line(line: bytes, names: Names) -> str:
+def _line(line: bytes, names: Names, asleep: Set[int]) -> str:
     _, esc, kept = line.rpartition(b"\x1b")
     if esc and not kept:
         return "ESC: the unfinished line is discarded, what moves goes on"
@@ -54,6 +56,8 @@ def _line(line: bytes, names: Names) -> str:
         return "an empty line: nothing happens"
     if isinstance(command, Dropped):
         return f"the board drops this line: {command.reason}"
+    if isinstance(command, Move):
+        return _move(command, names, asleep)
     return _COMMANDS[type(command)](command, names)
 
 
@@ -66,8 +70,20 @@ def _name(channel: int, names: Names) -> str:
     return names.get(channel, f"servo {channel}")
 
 
-def _move(move: Move, names: Names) -> str:
-    return _listed([_servo(servo, names) for servo in move.servos]) + _duration(move)
+def _move(move: Move, names: Names, asleep: Set[int]) -> str:
+    waking = tuple(servo for servo in move.servos if servo.pulse_us and servo.channel in asleep)
+    rest = replace(move, servos=tuple(servo for servo in move.servos if servo not in waking))
+    said = [_listed([_servo(servo, names) for servo in rest.servos]) + _duration(rest)] if rest.servos else []
+    return "; ".join([*([_waking(waking, move.time_ms, names)] if waking else []), *said])
+
+
+def _waking(servos: Sequence[ServoMove], time_ms: int | None, names: Names) -> str:
+    """The board knows no position from which a first move could be slow."""
+    known = _listed([f"{'the ' if servo.channel in names else ''}{_name(servo.channel, names)}" for servo in servos])
+    aims = _listed([str(servo.pulse_us) for servo in servos])
+    given = [*("T" for _ in range(time_ms is not None)), *("S" for _ in range(any(servo.speed for servo in servos)))]
+    ignored = f", {_listed(given)} {'are' if len(given) > 1 else 'is'} ignored" if given else ""
+    return f"wakes {known}: {'they jump' if len(servos) > 1 else 'it jumps'} to {aims} µs{ignored}"
 
 
 def _servo(servo: ServoMove, names: Names) -> str:
@@ -128,7 +144,6 @@ def _write_register(command: WriteRegister, _: Names) -> str:
 
 
 _COMMANDS: dict[type[Any], Callable[[Any, Names], str]] = {
-    Move: _move,
     SetOffsets: _offsets,
     SetLevels: _levels,
     SetByte: _byte,

@@ -22,6 +22,7 @@ class FindRow(QWidget):
     def __init__(self, search: WireSearch, table: WireTable) -> None:
         super().__init__()
         self._search, self._table = search, table
+        self._goes = False  # Return was pressed before all lines had been looked at
         self.box = QLineEdit()
         self.box.setObjectName("wire_search")
         self.box.setAccessibleName("Find in bytes and words")
@@ -45,9 +46,9 @@ class FindRow(QWidget):
         self._show_count()
 
     def _connect(self) -> None:
-        self.box.textChanged.connect(self._search.search)
-        self.box.returnPressed.connect(lambda: self.step(1))
-        self._search.changed.connect(self._show_count)
+        self.box.textChanged.connect(self._on_text)
+        self.box.returnPressed.connect(self._on_return)
+        self._search.changed.connect(self._on_changed)
         self._table.picked.connect(lambda _: self._show_count())
 
     def add_shortcuts(self, page: QWidget) -> None:
@@ -61,6 +62,22 @@ class FindRow(QWidget):
         """Type what to search for."""
         self.box.setFocus(Qt.FocusReason.ShortcutFocusReason)
         self.box.selectAll()
+
+    def _on_text(self, text: str) -> None:
+        self._goes = False
+        self._search.search(text)
+
+    def _on_return(self) -> None:
+        """Who types fast is there before the search: the step waits for it."""
+        self._goes = self._search.searching
+        if not self._goes:
+            self.step(1)
+
+    def _on_changed(self) -> None:
+        if self._goes and not self._search.searching:
+            self._goes = False
+            self.step(1)
+        self._show_count()
 
     def step(self, by: int) -> None:
         """Pick the next match, or the one before; round and round."""

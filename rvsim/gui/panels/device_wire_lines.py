@@ -5,16 +5,21 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from typing import Literal, NamedTuple, TypeAlias
 
 from rvsim.device.bridge.frames import Frame, next_frame
 from rvsim.device.bridge.messages import Axes, Encoders, Poll, PollAxes, Stop, decode
+from rvsim.device.ssc32.board_side import parse_line
+from rvsim.device.ssc32.commands import Move, QueryPulses
 from rvsim.device.wire_log import Direction, WireEntry, printable
 
 Language = Literal["ssc32", "bridge"]
 SENT: Direction = "→"
 _QUESTION = re.compile(rb"[\x1b \t\n]*(?:[QVA-F]|RDFLT|R *\d+ *\r|SS *\r)", re.IGNORECASE)
 _POLLING = re.compile(rb"[\x1b \t\n]*(?:Q|(?:V[A-H][ \t]*)+\r|[A-F][A-FL \t]*\r)", re.IGNORECASE)
+_NO_PULSE = 10  # in an answer's byte: old firmware adds a channel's offset even where there is no pulse
+_SETTLED = 0.2  # [s] after a move an answer to what was asked before it, or in its first frame, says nothing new
 _POLLS = Poll | PollAxes | Encoders | Axes
 
 
@@ -29,6 +34,7 @@ class Line(NamedTuple):
         whole: False for a sent line that was cut off before its end.
         stops: an axis or all of them.
         latency: from the question to its answer [s]; NaN for everything else.
+        wakes: channels that this line moves for the first time since they have pulses: they jump.
     """
 
     number: int
@@ -38,6 +44,7 @@ class Line(NamedTuple):
     whole: bool = True
     stops: bool = False
     latency: float = math.nan
+    wakes: frozenset[int] = frozenset()
 
     @property
     def sent(self) -> bool:
@@ -51,6 +58,7 @@ class Ssc32Reader:
     def __init__(self) -> None:
         self._count = 0
         self._question: Line | None = None
+        self._awake = AwakeChannels()
 
     def feed(self, entries: Iterable[WireEntry]) -> tuple[Line, ...]:
         """The lines of these entries, which come after those of before."""
@@ -62,6 +70,8 @@ class Ssc32Reader:
         asks = whole and _QUESTION.match(data) is not None
         polling = asks and _POLLING.match(data) is not None
         line = Line(self._next(), entry, polling=polling, whole=whole, stops=b"STOP" in data.upper())
+        if whole and b"#" in data:
+            line = line._replace(wakes=self._awake.moved(data, entry.time))
         if asks:
             self._question = line
         return line
@@ -70,12 +80,49 @@ class Ssc32Reader:
         asked, self._question = self._question, None
         if asked is None:
             return Line(self._next(), entry)
+        self._awake.answered(asked.entry, entry.data)
         latency = max(entry.time - asked.entry.time, 0.0)
         return Line(self._next(), entry, asked.entry.data, asked.polling, latency=latency)
 
     def _next(self) -> int:
         self._count += 1
         return self._count - 1
+
+
+class AwakeChannels:
+    """Which channels have pulses, as far as a log tells: moves begin them, answers to QP tell of them."""
+
+    def __init__(self) -> None:
+        self._awake: set[int] = set()
+        self._changed: dict[int, float] = {}  # when a line last moved a channel or let it go limp [s]
+
+    def moved(self, data: bytes, time: float) -> frozenset[int]:
+        """The channels that a sent line wakes."""
+        move = _parsed(data)
+        if not isinstance(move, Move):
+            return frozenset()
+        going = frozenset(servo.channel for servo in move.servos if servo.pulse_us)
+        limp = {servo.channel for servo in move.servos} - going
+        wakes = going - self._awake
+        self._awake = (self._awake | going) - limp
+        self._changed.update(dict.fromkeys(going | limp, time))
+        return wakes
+
+    def answered(self, asked: WireEntry, answer: bytes) -> None:
+        """A pulse of 0 is none: the power has failed, or somebody else has let the channel go limp."""
+        if not asked.data.lstrip(b"\x1b").startswith(b"QP"):
+            return
+        query = _parsed(asked.data)
+        if not isinstance(query, QueryPulses) or len(query.channels) != len(answer):
+            return
+        for channel, pulse in zip(query.channels, answer, strict=True):
+            if asked.time > self._changed.get(channel, -math.inf) + _SETTLED:
+                (self._awake.add if pulse > _NO_PULSE else self._awake.discard)(channel)
+
+
+@lru_cache(maxsize=256)
+def _parsed(data: bytes) -> object:
+    return parse_line(data.removesuffix(b"\r").rpartition(b"\x1b")[2])
 
 
 class BridgeReader:

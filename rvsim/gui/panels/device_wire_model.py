@@ -20,7 +20,7 @@ TIME, WAY, BYTES, WORDS = range(4)
 _TOP = QModelIndex()
 _HEADS = ("Time [s]", "", "Bytes", "In words")
 _TIPS = (
-    "Seconds on the driver's clock",
+    "Seconds: 0 is when the connection was asked for, just before its port was opened, or when serving began",
     "→ to the arm, ← from the arm",
     "What went over the wire; bytes that are no letters as \\r or \\x1b",
     "What it means",

@@ -43,7 +43,7 @@ class LineReading(QWidget):
             return
         count = len(line.entry.data)
         way = "to the arm" if line.sent else "from the arm"
-        self.head.setText(f"{line.entry.time:.3f} s, {count} {'byte' if count == 1 else 'bytes'} {way}")
+        self.head.setText(f"{line.entry.time:.3f} s after the start, {count} {'byte' if count == 1 else 'bytes'} {way}")
         self.bytes.setText(breakable(shown_bytes(line, words.language)))
         self.words.setText(words.told(line))
 

@@ -15,7 +15,7 @@ from rvsim.robot import Robot
 _MOST_KEPT = 20_000  # texts; the same questions and answers come again and again
 _CUT = "Cut off before its end: the controller does nothing with it."
 
-Key = tuple[str, bytes, bytes | None, bool]
+Key = tuple[str, bytes, bytes | None, bool, frozenset[int]]
 
 
 class Words:
@@ -28,7 +28,7 @@ class Words:
 
     def of(self, line: Line) -> str:
         """One sentence, perhaps a long one."""
-        key = (line.entry.direction, line.entry.data, line.question, line.whole)
+        key = (line.entry.direction, line.entry.data, line.question, line.whole, line.wakes)
         if key not in self._kept:
             if len(self._kept) >= _MOST_KEPT:
                 self._kept.clear()
@@ -70,7 +70,7 @@ def what_it_would_do(typed: str, robot: Robot) -> str:
 def _ssc32(words: Words, line: Line) -> str:
     data, question = line.entry.data, line.question
     if line.sent:
-        return sentence(sent_in_words(data, words.names)) if line.whole else _CUT
+        return sentence(sent_in_words(data, words.names, line.wakes)) if line.whole else _CUT
     query = parse_line(question.removesuffix(b"\r").rpartition(b"\x1b")[2]) if question else None
     return sentence(reply_in_words(query if isinstance(query, Query) else None, data, words.names))
 

@@ -91,3 +91,18 @@ def test_an_answer_says_what_it_answers(query: Query | None, data: bytes, words:
 def test_any_bytes_have_words(data: bytes, query: Query | None) -> None:
     assert sent_in_words(data)
     assert reply_in_words(query, data)
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        (b"#1P1500T700\r", "wakes the shoulder: it jumps to 1500 µs, T is ignored"),
+        (b"#1P1500\r", "wakes the shoulder: it jumps to 1500 µs"),
+        (b"#1P1500#7P1600S100T700\r", "wakes the shoulder and servo 7: they jump to 1500 and 1600 µs, "
+        "T and S are ignored"),
+        (b"#1P1500#2P1600T700\r", "wakes the shoulder: it jumps to 1500 µs, T is ignored; elbow to 1600 µs in 700 ms"),
+        (b"#1P0\r", "shoulder off (limp)"),
+    ],
+)  # fmt: skip
+def test_the_first_move_of_a_channel_is_a_jump(line: bytes, words: str) -> None:
+    assert sent_in_words(line, NAMES, {1, 7}) == words

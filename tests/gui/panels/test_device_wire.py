@@ -109,7 +109,7 @@ def test_lines_come_at_the_end_without_a_reset(qtbot, wire):
 @pytest.mark.parametrize(
     ("row", "words"),
     [
-        (0, "Base to 1500 µs and shoulder to 1600 µs, together in 700 ms."),
+        (0, "Wakes the base and the shoulder: they jump to 1500 and 1600 µs, T is ignored."),
         (2, "Which pulse does the board send to base and shoulder?"),
         (
             3,
@@ -192,6 +192,33 @@ def test_the_search_finds_bytes_and_words_and_goes_round(wire, found):
     assert wire.text("wire_matches") == "2 of 2"
     assert found("p150") == "3 of 3"
     assert found("nowhere") == "none"
+
+
+def test_first_moves_wake_and_are_found_by_that_word(wire, found):
+    wire.say(b"#0P1500T700\r")
+    wire.send(b"#0P1600T700\r", b"#0P0\r", b"#0P1500\r", b"#0P1510T50\r")
+    wire.time = 5.0
+    wire.say(b"QP0\r", b"\0")
+    wire.send(b"#0P1520T50\r")
+    assert found("wakes the base") == "3"
+    jumps = [bool(line.wakes) for line in wire.page.model.shown]
+    assert jumps == [True, False, False, True, False, False, False, True]
+
+
+def test_what_the_board_already_moves_is_not_woken(wire):
+    wire.say(b"QP0QP1\r", bytes([150, 0]), b"#0P1500#1P1600T700\r")
+    assert wire.page.model.words.of(wire.page.model.shown[2]) == (
+        "Wakes the shoulder: it jumps to 1600 µs, T is ignored; base to 1500 µs in 700 ms."
+    )
+
+
+def test_return_right_after_typing_goes_to_the_first_match(wire, qtbot):
+    wire.send(*[b"#0P%d\r" % (1000 + number) for number in range(200)])
+    box = wire.find(QLineEdit, "wire_search")
+    box.setText("p11")
+    qtbot.keyClick(box, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: wire.text("wire_matches") == "1 of 100")
+    assert wire.text("wire_bytes") == r"#0P1100\r"
 
 
 def test_lines_that_come_later_are_found_too(wire, found, qtbot):
