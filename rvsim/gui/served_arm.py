@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from pathlib import Path
 from tempfile import gettempdir
 from typing import TYPE_CHECKING, Literal
@@ -10,15 +11,17 @@ from typing import TYPE_CHECKING, Literal
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from rvsim.errors import RvsimError
+from rvsim.gui.served_wire import ServedWire
 from rvsim.gui.session import Session
 
 if TYPE_CHECKING:
     from rvsim.device.link.serve import Server
     from rvsim.device.virtual.arm import VirtualArm
+    from rvsim.device.wire_log import WireLog
 
 Way = Literal["pty", "tcp"]
 LINK_NAME = "rvsim-al5b"
-_WATCH_MS = 500
+_WATCH_MS = 100
 
 
 def ways() -> dict[str, str]:
@@ -28,15 +31,22 @@ def ways() -> dict[str, str]:
 
 
 class ServedArm(QObject):
-    """At most one; `changed()` tells that it began or ended."""
+    """At most one.
+
+    Signals:
+        changed(): it began or ended.
+        watched(): some ten times a second while it is served: time to read its log and its counters.
+    """
 
     changed = Signal()
+    watched = Signal()
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
         self._server: Server | None = None
         self._arm: VirtualArm | None = None
+        self._wire: ServedWire | None = None
         self._timer = QTimer(self, interval=_WATCH_MS)
         self._timer.timeout.connect(self._watch)
 
@@ -50,6 +60,21 @@ class ServedArm(QObject):
         """What another program opens, "" when nothing is served."""
         return self._server.address if self._server else ""
 
+    @property
+    def log(self) -> WireLog | None:
+        """Its bytes since serving began; that of the last arm stays."""
+        return self._wire.log if self._wire else None
+
+    @property
+    def received_bytes(self) -> int:
+        """How many have come from other programs since serving began."""
+        return self._server.received_bytes if self._server else 0
+
+    @property
+    def sent_bytes(self) -> int:
+        """How many have gone to them."""
+        return self._server.sent_bytes if self._server else 0
+
     def begin(self, way: Way, baud: int, seed: int = 0) -> None:
         """Serve an arm like the one that is shown."""
         from rvsim.device.link.serve import serve_pty, serve_tcp
@@ -58,12 +83,18 @@ class ServedArm(QObject):
         self.end()
         try:
             arm = VirtualArm(self._session.robot, seed=seed)
+            began = time.monotonic()
+            wire = ServedWire(lambda: time.monotonic() - began)
             link = Path(gettempdir()) / LINK_NAME
-            self._server = serve_pty(arm, link=link, baud=baud) if way == "pty" else serve_tcp(arm, baud=baud)
+            self._server = (
+                serve_pty(arm, link=link, baud=baud, log=wire.add)
+                if way == "pty"
+                else serve_tcp(arm, baud=baud, log=wire.add)
+            )
         except (RvsimError, OSError) as problem:
             self._session.say(str(problem), "error")
             return
-        self._arm = arm
+        self._arm, self._wire = arm, wire
         self._timer.start()
         self._session.say(f"A virtual arm is waiting at {self.address}. What moves it is shown as a ghost.")
         self.changed.emit()
@@ -78,6 +109,7 @@ class ServedArm(QObject):
 
     def _watch(self) -> None:
         """It may end by itself, for instance when its link is taken away."""
+        self.watched.emit()
         if self._server is not None and not self._server.running:
             problem = self._server.problem
             self.end()

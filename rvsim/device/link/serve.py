@@ -6,15 +6,18 @@ import atexit
 import select
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 from rvsim.device.link.pacing import PacedArm, WiredArm
 from rvsim.device.link.pty_wire import PtyWire
 from rvsim.device.link.real_time import RealTime
 from rvsim.device.link.wires import TcpWire, Wire
+from rvsim.device.wire_log import Direction
 from rvsim.errors import RvsimError
 
+Log: TypeAlias = Callable[[Direction, bytes], None]
 USUAL_BAUD = 9600
 _OUTPUT_BUFFER = 4096  # bytes, as a serial driver has; what is with us a client can call back, the rest holds it up
 _BUSY, _QUIET = 0.001, 0.01  # [s] between two looks at the arm while bytes are on their way, and otherwise
@@ -29,32 +32,34 @@ class ServedArm(WiredArm, Protocol):
         ...
 
 
-def serve_pty(arm: ServedArm, *, link: Path, baud: int | None = None) -> Server:
+def serve_pty(arm: ServedArm, *, link: Path, baud: int | None = None, log: Log | None = None) -> Server:
     """Serve the arm on a pseudo-terminal; the arm lives on while clients come and go.
 
     Args:
         arm: nobody else may move its time while it is served.
         link: the name under which clients find it. A former server's is replaced, foreign files never.
         baud: the board's rate [bit/s]: a client at another one hears garbage, as on a real wire. None: the client's.
+        log: told of all bytes, by the server's thread.
 
     Raises:
         DeviceError: there are no pseudo-terminals here, or the place of the link is taken.
     """
-    return Server(arm, PtyWire(link, baud or USUAL_BAUD), baud)
+    return Server(arm, PtyWire(link, baud or USUAL_BAUD), baud, log)
 
 
-def serve_tcp(arm: ServedArm, *, port: int = 0, baud: int | None = None) -> Server:
+def serve_tcp(arm: ServedArm, *, port: int = 0, baud: int | None = None, log: Log | None = None) -> Server:
     """Serve the arm on a TCP port of this computer, 127.0.0.1 only.
 
     Args:
         arm: nobody else may move its time while it is served.
         port: its number; 0 takes a free one, `Server.address` says which.
         baud: at which bytes are paced [bit/s]; None: 9600.
+        log: told of all bytes, by the server's thread.
 
     Raises:
         DeviceError: the port is taken.
     """
-    return Server(arm, TcpWire(port), baud)
+    return Server(arm, TcpWire(port), baud, log)
 
 
 class Server:
@@ -64,10 +69,16 @@ class Server:
         arm: at the far end.
         wire: the near end, which clients hold.
         baud: the board's rate [bit/s], or None.
+        log: told of bytes to the arm (→) and from it (←), by the server's thread.
+
+    Attributes:
+        received_bytes, sent_bytes: how many have come from clients, and gone to them.
     """
 
-    def __init__(self, arm: ServedArm, wire: Wire, baud: int | None = None) -> None:
+    def __init__(self, arm: ServedArm, wire: Wire, baud: int | None = None, log: Log | None = None) -> None:
         self.arm = arm
+        self._log = log
+        self.received_bytes = self.sent_bytes = 0
         self._wire = wire
         self._paced = PacedArm(arm, baud or USUAL_BAUD, board_baud=baud)
         self._time = RealTime(self._paced, time.monotonic())
@@ -145,6 +156,15 @@ class Server:
         answer = self._paced.receive()
         if answer:
             self._wire.write(answer)
+        self._tell(data, answer)
+
+    def _tell(self, data: bytes, answer: bytes) -> None:
+        self.received_bytes += len(data)
+        self.sent_bytes += len(answer)
+        if self._log is not None and data:
+            self._log("→", data)
+        if self._log is not None and answer:
+            self._log("←", answer)
 
     def _mind_the_plug(self) -> None:
         """A port that vanishes takes its clients with it; back again, it is a new one of the same name."""

@@ -38,7 +38,7 @@ def device_pages(
 
     return (
         Page("device", "Drive", "Connect an arm, wake it, let it follow or run", DrivePage(*arguments)),
-        Page("wire", "Wire", "Every line that goes to the arm and comes back, in words", WirePage(*arguments)),
+        Page("wire", "Wire", "Every line that goes to the arm and comes back, in words", WirePage(*arguments, served)),
         Page(
             "calibrate", "Calibrate", "Find out channel, direction and pulses of each servo, step by step",
             LatePage(calibrate),

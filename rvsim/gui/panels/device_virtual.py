@@ -25,6 +25,8 @@ _SERVE = (
     "Let another program, your own for instance, drive a virtual arm: it sends the same bytes as to a real one, "
     "and the ghost in the scene moves."
 )
+_SILENT = "No program has sent anything yet."
+_WHICH = {"connected": "The connected arm", "served": "The served arm"}
 _BAUDS = {"9600": "9600 baud", "38400": "38400 baud", "115200": "115200 baud"}
 _LINE = 'import serial\nport = serial.serial_for_url("{address}", baudrate={baud})\nport.write(b"#0P1600T1000\\r")'
 
@@ -42,6 +44,8 @@ class VirtualPage(InspectPage):
         self._device, self._served = device, served
         self.about = wrapped_label("muted")
         self.about.setObjectName("virtual_about")
+        self.which = combo("virtual_which", "Which arm's faults are shown and switched", _WHICH)
+        self.which.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
         self.faults = {fault: self._switch(fault) for fault in Fault}
         self.servo = combo("fault_servo", "The servo that is jammed or weak")
         self.servo.currentIndexChanged.connect(lambda _: self._on_servo())
@@ -54,6 +58,7 @@ class VirtualPage(InspectPage):
         self._lay_out()
         device.state_changed.connect(lambda _: self._on_device())
         served.changed.connect(self._refresh_if_seen)
+        served.watched.connect(self._show_traffic)
         self._shown: VirtualArm | None = None
 
     def _switch(self, fault: Fault) -> QCheckBox:
@@ -69,6 +74,8 @@ class VirtualPage(InspectPage):
         self.serve = button("serve_button", "Serve a virtual arm", "Other programs can drive it then", self._on_serve)
         self.address = wrapped_label()
         self.address.setObjectName("serve_address")
+        self.traffic = wrapped_label("muted")
+        self.traffic.setObjectName("serve_traffic")
         self.example = QLabel()
         self.example.setObjectName("serve_example")
         self.example.setWordWrap(True)
@@ -98,20 +105,23 @@ class VirtualPage(InspectPage):
         choices.addRow("Through", self.way)
         choices.addRow("Speed", self.baud)
         column.addLayout(choices)
-        for widget in (self.serve, self.address, self.example, self.copy):
+        for widget in (self.serve, self.address, self.traffic, self.example, self.copy):
             column.addWidget(widget)
         inside = QWidget()
         page = QVBoxLayout(inside)
         page.setContentsMargins(12, 8, 12, 12)
         page.setSpacing(8)
-        for part in (self.about, faults, serving):
+        for part in (self.about, self.which, faults, serving):
             page.addWidget(part)
         page.addStretch(1)
         column_of(self, scrolled(inside))
 
     @property
     def _arm(self) -> VirtualArm | None:
-        return self._device.virtual or self._served.arm
+        connected, served = self._device.virtual, self._served.arm
+        if connected is not None and served is not None:
+            return served if self.which.currentData() == "served" else connected
+        return connected or served
 
     def concerns(self, before: Experiment, after: Experiment) -> bool:
         """Only the arm: whether it has servos."""
@@ -122,6 +132,7 @@ class VirtualPage(InspectPage):
         arm, robot = self._arm, self._session.robot
         self._shown = arm
         self.about.setText(_IN_USE if arm else _NONE)
+        self._show_which()
         for fault, box in self.faults.items():
             box.setEnabled(arm is not None)
             with QSignalBlocker(box):
@@ -136,8 +147,24 @@ class VirtualPage(InspectPage):
             widget.setEnabled(not address)
         self.address.setText(f"Waiting at {address}" if address else "")
         self.example.setText(self._line)
-        for part in (self.address, self.example, self.copy):
+        for part in (self.address, self.traffic, self.example, self.copy):
             part.setVisible(bool(address))
+        self._show_traffic()
+
+    def _show_which(self) -> None:
+        """There is a choice only while both are there; it begins with the connected one."""
+        both = self._device.virtual is not None and self._served.arm is not None
+        self.which.setVisible(both)
+        if not both:
+            with QSignalBlocker(self.which):
+                self.which.setCurrentIndex(0)
+
+    def _show_traffic(self) -> None:
+        came, went = self._served.received_bytes, self._served.sent_bytes
+        words = f"{came:,} bytes came in, {went:,} went out. The Wire page shows them while no arm is connected."
+        text = words if came or went else _SILENT
+        if self.traffic.text() != text:
+            self.traffic.setText(text)
 
     def _show_servos(self, arm: VirtualArm | None) -> None:
         names = [*self._session.robot.joint_names, "gripper"] if self._session.robot.servos else []
@@ -154,7 +181,8 @@ class VirtualPage(InspectPage):
 
     def _on_device(self) -> None:
         """Each poll tells; what is shown here changes with the arm only."""
-        if self._arm is not self._shown:
+        both = self._device.virtual is not None and self._served.arm is not None
+        if self._arm is not self._shown or both == self.which.isHidden():
             self._refresh_if_seen()
 
     def _on_fault(self, fault: Fault, on: bool) -> None:

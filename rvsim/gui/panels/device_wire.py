@@ -22,6 +22,7 @@ from rvsim.gui.panels.device_wire_words import Words, milliseconds
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_page import InspectPage
 from rvsim.gui.preferences import Preferences
+from rvsim.gui.served_arm import ServedArm
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.theme import THEMES, set_role
@@ -29,7 +30,7 @@ from rvsim.gui.widgets import button, column_of, scrolled
 from rvsim.gui.workers import LatestWorker
 
 _EMPTY = (
-    "Nothing has gone over the wire yet: connect an arm on the Drive page.\n\n"
+    "Nothing has gone over the wire yet: connect an arm on the Drive page, or serve one on the Virtual page.\n\n"
     "Then each line that goes to the arm (→) and each answer (←) is listed here with its time. Point at one to read "
     "what it means. The virtual arm speaks as a real one does, byte for byte."
 )
@@ -37,14 +38,21 @@ _CLEARED = "Cleared. New lines appear as they come; Save still writes the whole 
 
 
 class WirePage(InspectPage):
-    """Shows the log of the connection there is, or of the last one."""
+    """Shows the log of the connection there is, of an arm that is served, or of the last one."""
 
     title = "Wire"
     name = "wire"
 
-    def __init__(self, session: Session, preferences: Preferences, stage: Stage, device: DeviceControl) -> None:
+    def __init__(
+        self,
+        session: Session,
+        preferences: Preferences,
+        stage: Stage,
+        device: DeviceControl,
+        served: ServedArm | None = None,
+    ) -> None:
         super().__init__(session, preferences, stage)
-        self._device = device
+        self._device, self._served = device, served
         self._sent = self._received = 0
         self.model = WireModel(Words("ssc32", session.robot), fixed_font())
         self.feed = WireFeed(self.model, self)
@@ -105,6 +113,8 @@ class WirePage(InspectPage):
     def _connect(self) -> None:
         self._device.polled.connect(self._on_polled)
         self._device.state_changed.connect(lambda _: self._on_polled())
+        if self._served is not None:
+            self._served.watched.connect(self._on_polled)
         self.feed.fed.connect(self._show_counts)
         self.hide_polling.toggled.connect(self._on_hide)
         self.table.following_changed.connect(self.end.setDisabled)
@@ -135,9 +145,12 @@ class WirePage(InspectPage):
 
     def _on_polled(self) -> None:
         """The log is remembered even while nobody looks: it is to be read after the connection too."""
-        driver, state = self._device.driver, self._device.state
+        driver, state, served = self._device.driver, self._device.state, self._served
         if driver is not None:
             self.feed.use(driver.log, driver.language, driver.robot)
+        elif served is not None and served.arm is not None and served.log is not None:
+            self.feed.use(served.log, "ssc32", served.arm.robot)
+            self._sent, self._received = served.received_bytes, served.sent_bytes
         if state is not None:
             self._sent, self._received = state.sent_bytes, state.received_bytes
         if self.seen:
