@@ -12,7 +12,7 @@ from rvsim.experiment import Experiment
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.panels.device_calibrate_automatic import AutomaticSection
 from rvsim.gui.panels.device_calibrate_cells import Wiring, wiring_of
-from rvsim.gui.panels.device_calibrate_flow import at_part, left_over, skipped
+from rvsim.gui.panels.device_calibrate_flow import at_part, left_over, skipped, with_ends
 from rvsim.gui.panels.device_calibrate_jog import Jog, Part
 from rvsim.gui.panels.device_calibrate_results import ResultsSection
 from rvsim.gui.panels.device_calibrate_step import StepSection
@@ -95,6 +95,7 @@ class CalibratePage(InspectPage):
         step.part_chosen.connect(self._on_part)
         step.pulse_wanted.connect(self._on_pulse)
         step.near_wanted.connect(self._on_near)
+        step.ends_wanted.connect(self._on_ends)
         step.mark_wanted.connect(self._on_mark)
         step.undo_wanted.connect(lambda: self._answer(lambda wizard: wizard.undo()))
         step.skip_wanted.connect(lambda: self._answer(skipped))
@@ -132,7 +133,7 @@ class CalibratePage(InspectPage):
     def _begin_anew(self, parts: tuple[Part, ...] | None = None) -> None:
         robot = self._session.robot
         self._basis, self._taken = wiring_of(robot), False
-        self._wizard = CalibrationWizard.begin(robot, parts) if robot.servos else None
+        self._wizard = CalibrationWizard.begin(robot, parts, ends=self.step.ends.isChecked()) if robot.servos else None
         self.step.show_problem("")
 
     def _show_wizard(self) -> None:
@@ -160,11 +161,12 @@ class CalibratePage(InspectPage):
         self.reset.setVisible(stopped)
         self._show_wake(state if asleep else None)
         self.step.setVisible(ready and not asleep and not swept)
-        self.automatic.show_state(ready and not asleep, state)
+        self.automatic.show_state(ready and not asleep, state, self._wizard)
         self.results.setVisible(self._wizard is not None and (self._taken or bool(self._wizard.results)))
         self.results.take.setEnabled(not swept and (state is None or not state.busy))
         if self._wizard is not None and self._wizard.step is not None:
-            self.step.show_pulse(self._jog.pulse(self._wizard.step.joint))
+            self.step.show_pulse(self._jog.pulse(self._wizard.step.joint), state is not None and state.busy)
+        self.step.show_virtual(self._device.virtual is not None)
         self._draw_target(ready and not asleep)
 
     def _words(self, state: DriverState | None) -> str:
@@ -212,7 +214,6 @@ class CalibratePage(InspectPage):
             self.step.show_problem(after.sentence)
         else:
             self._go_on_with(after)
-
             self._show_picture()
 
     def _go_on_with(self, wizard: CalibrationWizard) -> None:
@@ -226,6 +227,10 @@ class CalibratePage(InspectPage):
         step = self._wizard.step if self._wizard is not None else None
         if step is not None and step.value is not None and not self._device.live:
             self._session.move_to(step.posture, "Picture of a pose to be marked", merge="calibration")
+
+    def _on_ends(self, on: bool) -> None:
+        if self._wizard is not None:
+            self._go_on_with(with_ends(self._wizard, on))
 
     def _on_part(self, part: Part) -> None:
         if self._taken:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGroupBox, QProgressBar, QVBoxLayout
 
+from rvsim.device.calibrate import CalibrationWizard
 from rvsim.device.driver.state import DriverState
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.panels.device_calibrate_jog import Jog
-from rvsim.gui.panels.device_calibrate_sweep import Sweep
+from rvsim.gui.panels.device_calibrate_sweep import Sweep, sweep_seconds
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.widgets import button
 from rvsim.robot.arrays import FloatArray
@@ -36,6 +37,7 @@ class AutomaticSection(QGroupBox):
     def __init__(self, device: DeviceControl, jog: Jog) -> None:
         super().__init__("Automatic")
         self._device = device
+        self._timed: tuple[CalibrationWizard | None, str] = (None, "")
         self.sweep = Sweep(device, jog, self._seen_angles, self)
         self.about, self.ending = wrapped_label("muted"), wrapped_label()
         self.about.setObjectName("calibrate_automatic_about")
@@ -61,13 +63,13 @@ class AutomaticSection(QGroupBox):
             column.addWidget(widget)
         self.ending.hide()
 
-    def show_state(self, ready: bool, state: DriverState | None) -> None:
+    def show_state(self, ready: bool, state: DriverState | None, wizard: CalibrationWizard | None) -> None:
         """Offer it where angles can be seen, and say why not where one would expect it."""
         running = self.sweep.running
         words = self._words(state) if ready else ""
         self.setVisible(bool(words) or running)
-        self.about.setText(words)
         able = words in (_VIRTUAL, _ENCODERS)
+        self.about.setText(f"{words} {self._duration(wizard)}".rstrip() if able else words)
         self.begin.setVisible(able and not running)
         self.cancel.setVisible(running)
         self.progress.setVisible(running)
@@ -80,6 +82,12 @@ class AutomaticSection(QGroupBox):
         """How it ended."""
         self.ending.setText(sentence)
         self.ending.setVisible(bool(sentence))
+
+    def _duration(self, wizard: CalibrationWizard | None) -> str:
+        """A sentence; reckoned once a step."""
+        if wizard is not self._timed[0]:
+            self._timed = (wizard, "" if wizard is None else _duration_words(sweep_seconds(wizard)))
+        return self._timed[1]
 
     def _words(self, state: DriverState | None) -> str:
         if state is not None and state.measured_kind == _POTENTIOMETERS:
@@ -98,3 +106,11 @@ class AutomaticSection(QGroupBox):
     def _on_begin(self) -> None:
         self.show_ending("")
         self.begin_wanted.emit()
+
+
+def _duration_words(seconds: float) -> str:
+    if not seconds:
+        return ""
+    minutes = round(seconds / 60.0)
+    rounded = f"{minutes} min" if minutes > 1 else f"{max(round(seconds, -1), 10):.0f} s"
+    return f"It takes about {rounded}.".replace(" min", "\u00a0min").replace(" s.", "\u00a0s.")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from rvsim.device.calibrate import CalibrationWizard, Fit, Mark, Result, Step
-from rvsim.device.calibration.steps import ENDS
+from rvsim.device.calibration.steps import ENDS, GRIPPER_STAGES, POSES
 from rvsim.gui.panels.device_calibrate_jog import Part, pulse_for
 from rvsim.gui.quantities import format_number
 from rvsim.robot import GripperServo, Robot, Servo
@@ -37,6 +37,23 @@ def at_part(wizard: CalibrationWizard, part: Part) -> CalibrationWizard:
     return replace(wizard, parts=(*done, part, *rest), marks=tuple(marks))
 
 
+def where_words(wizard: CalibrationWizard) -> str:
+    """How far one is: "Joint 1 of 6, step 1 of 2"; "" where all is done."""
+    step = wizard.step
+    if step is None:
+        return ""
+    stages = GRIPPER_STAGES if step.joint is None else POSES + (ENDS if wizard.ends else ())
+    part = wizard.parts.index(step.joint) + 1
+    name = "Joint" if step.joint is not None else "Gripper,"
+    return f"{name} {part} of {len(wizard.parts)}, step {stages.index(step.stage) + 1} of {len(stages)}"
+
+
+def with_ends(wizard: CalibrationWizard, ends: bool) -> CalibrationWizard:
+    """The same with or without the question how far each joint may go; without it what was marked of that goes too."""
+    marks = tuple(mark for mark in wizard.marks if ends or mark.stage not in ENDS)
+    return replace(wizard, ends=ends, marks=marks)
+
+
 def left_over(wizard: CalibrationWizard) -> tuple[Part, ...]:
     """Parts of which nothing has been found, the present one first."""
     here = wizard.parts.index(current_part(wizard))
@@ -64,8 +81,9 @@ def pose_steps(wizard: CalibrationWizard) -> tuple[Step, Step]:
 def with_fit(wizard: CalibrationWizard, fit: Fit) -> CalibrationWizard:
     """The wizard, at the first pose of a joint, goes on after it: a line through many samples stands for two marks."""
     steps = pose_steps(wizard)
+    ends = ENDS if wizard.ends else ()
     poses = [Mark(step.joint, step.stage, pulse_for(fit.servo, _value(step)), _value(step)) for step in steps]
-    return replace(wizard, marks=(*wizard.marks, *poses, *(Mark(steps[0].joint, end, None) for end in ENDS)))
+    return replace(wizard, marks=(*wizard.marks, *poses, *(Mark(steps[0].joint, end, None) for end in ends)))
 
 
 def result_rows(result: Result) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -94,7 +112,7 @@ def _whole(wizard: CalibrationWizard, part: Part) -> Iterator[Mark]:
     """The marks of a part that was found; ends nobody has asked for count as skipped."""
     marks = [mark for mark in wizard.marks if mark.joint == part]
     yield from marks
-    if part is not None:
+    if part is not None and wizard.ends:
         given = {mark.stage for mark in marks}
         yield from (Mark(part, stage, None) for stage in ENDS if stage not in given)
 

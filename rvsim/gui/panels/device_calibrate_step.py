@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
 
 from rvsim.device.calibrate import CalibrationWizard, Step
-from rvsim.gui.panels.device_calibrate_flow import current_part, found_parts, part_title
+from rvsim.gui.panels.device_calibrate_flow import current_part, found_parts, part_title, where_words
 from rvsim.gui.panels.device_calibrate_jog import Part
 from rvsim.gui.panels.device_calibrate_nudge import NudgeRow
 from rvsim.gui.panels.how_steps import wrapped_label
@@ -21,6 +21,8 @@ _HINT = (
     "Come from one side and stop at the first pulse that looks right: a servo that hums stands at its end. Hold a "
     "button to go on; arrow keys nudge by 1 µs, with Shift by 10. All moves are slow, and Esc stops."
 )
+_VIRTUAL = "Nudge until the translucent hand (where the arm really stands) covers the dashed one."
+_MARK_TIP, _WAIT_TIP = "The arm stands as it should: take this pulse", "The arm is moving: wait until it stands"
 _DONE = "All is marked. Take the calibration below, or choose a joint to do it again."
 _MARKS = {
     "first pose": "Mark first pose", "second pose": "Mark second pose", "open": "Mark open", "closed": "Mark closed",
@@ -35,12 +37,14 @@ class StepSection(QWidget):
     Signals:
         part_chosen(part): another joint (from 0), or None for the gripper.
         pulse_wanted(µs), near_wanted(): the servo is to be nudged there; all are to go near the pose.
+        ends_wanted(on): whether to ask how far each joint may go.
         mark_wanted(), undo_wanted(), skip_wanted(), other_wanted(): the buttons.
     """
 
     part_chosen = Signal(object)
     pulse_wanted = Signal(float)
     near_wanted = Signal()
+    ends_wanted = Signal(bool)
     mark_wanted = Signal()
     undo_wanted = Signal()
     skip_wanted = Signal()
@@ -53,6 +57,10 @@ class StepSection(QWidget):
         self.title, self.instruction = wrapped_label("title"), wrapped_label()
         self.title.setObjectName("calibrate_title")
         self.instruction.setObjectName("calibrate_instruction")
+        self.where, self.virtual = wrapped_label("muted"), wrapped_label("muted")
+        self.where.setObjectName("calibrate_where")
+        self.virtual.setObjectName("calibrate_virtual")
+        self.virtual.setText(_VIRTUAL)
         self.hint, self.problem = wrapped_label("muted"), wrapped_label()
         self.hint.setText(_HINT)
         self.problem.setObjectName("calibrate_problem")
@@ -75,7 +83,7 @@ class StepSection(QWidget):
             "other way: keep clear, and a finger at Esc", self.near_wanted.emit,
         )  # fmt: skip
         self.mark = button(
-            "calibrate_mark", "Mark", "The arm stands as it should: take this pulse", self.mark_wanted.emit,
+            "calibrate_mark", "Mark", _MARK_TIP, self.mark_wanted.emit,
             primary=True,
         )  # fmt: skip
         self.undo = button("calibrate_undo", "Undo mark", "Back to the step before", self.undo_wanted.emit)
@@ -85,20 +93,26 @@ class StepSection(QWidget):
             self.other_wanted.emit,
         )  # fmt: skip
 
+        self.ends = QCheckBox("Also find how far each joint may go")
+        self.ends.setObjectName("calibrate_ends")
+        self.ends.setToolTip("Two more steps a joint. Without them a joint may go as far as before, in degrees")
+        self.ends.toggled.connect(self.ends_wanted)
+
     def _lay_out(self) -> None:
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
-        for widget in (self.part, self.progress, self.title, self.instruction, self.near, self.nudge, self.mark):
+        words = (self.where, self.title, self.instruction, self.virtual)
+        for widget in (self.part, self.progress, *words, self.near, self.nudge, self.mark):
             column.addWidget(widget)
         row = QHBoxLayout()
         row.setSpacing(6)
         row.addWidget(self.undo, 1)
         row.addWidget(self.skip, 1)
         column.addLayout(row)
-        for widget in (self.other, self.problem, self.hint):
-            column.addWidget(widget)
-        self._of_a_step = (self.near, self.nudge, self.mark, self.skip, self.hint)
+        for below in (self.other, self.problem, self.ends, self.hint):
+            column.addWidget(below)
+        self._of_a_step = (self.where, self.near, self.nudge, self.mark, self.skip, self.hint)
 
     @property
     def _chosen(self) -> Part:
@@ -112,7 +126,8 @@ class StepSection(QWidget):
         self._show_parts(wizard)
         self.progress.setRange(0, wizard.count)
         self.progress.setValue(round(wizard.progress * wizard.count))
-        self.title.setText("All is marked" if step is None else f"{step.number} of {step.count}: {step.title}")
+        self.title.setText("All is marked" if step is None else step.title)
+        self.where.setText(where_words(wizard))
         self.instruction.setText(_DONE if step is None else step.instruction)
         for widget in self._of_a_step:
             widget.setVisible(step is not None)
@@ -140,11 +155,18 @@ class StepSection(QWidget):
                 self.part.setItemText(row, part_title(robot, part) + ("  ✓" if part in found else ""))
             self.part.setCurrentIndex(parts.index(current_part(wizard)))
 
-    def show_pulse(self, pulse_us: float) -> None:
-        """Show where the servo is [µs]; NaN: it sleeps."""
+    def show_virtual(self, virtual: bool) -> None:
+        """Say what to look at where the window sees how the arm really stands."""
+        posed = self._wizard is not None and self._wizard.step is not None and self._wizard.step.value is not None
+        self.virtual.setVisible(virtual and posed)
+
+    def show_pulse(self, pulse_us: float, moving: bool) -> None:
+        """Show where the servo is [µs], NaN: it sleeps; nothing can be marked while the arm is moving."""
         awake = math.isfinite(pulse_us)
-        for widget in (self.nudge, self.mark, self.near):
+        for widget in (self.nudge, self.near):
             widget.setEnabled(awake)
+        self.mark.setEnabled(awake and not moving)
+        self.mark.setToolTip(_WAIT_TIP if moving else _MARK_TIP)
         if awake:
             self.nudge.show_pulse(pulse_us)
 

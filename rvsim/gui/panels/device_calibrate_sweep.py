@@ -11,12 +11,13 @@ from PySide6.QtCore import QObject, Signal
 from rvsim.device.calibrate import CalibrationWizard, Objection, fit_from_samples, sag_of
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.panels.device_calibrate_flow import at_part, current_part, left_over, pose_steps, with_fit
-from rvsim.gui.panels.device_calibrate_jog import Jog, Part, pulse_for
+from rvsim.gui.panels.device_calibrate_jog import Jog, Part, pulse_for, seconds_between
 from rvsim.robot.arrays import FloatArray
 
 _STEPS = 5  # from one pose to the other
 _SAMPLES = 2 * _STEPS - 1  # there and back
 _MARGIN = 0.1  # of the way, kept at both ends: a stop of the real servo may lie before the pose
+_REST = 0.6  # [s] a sample, until the arm has come to rest and been looked at
 _STILL = 1e-4  # [rad, m] between two looks
 _LOOKS = 4  # in a row without a change: the arm stands
 _STOPPED = "The automatic calibration has ended: the arm was stopped."
@@ -155,6 +156,16 @@ def _there_and_back(first_us: float, second_us: float) -> list[float]:
     margin = _MARGIN * (second_us - first_us)
     there = [round(pulse) for pulse in np.linspace(first_us + margin, second_us - margin, _STEPS).tolist()]
     return [*there, *there[-2::-1]]
+
+
+def sweep_seconds(wizard: CalibrationWizard) -> float:
+    """How long the sweep of the joints that a wizard has left will take, about [s]; 0 where none is left."""
+    total = 0.0
+    for joint in (part for part in left_over(wizard) if part is not None):
+        first, second = pose_steps(at_part(wizard, joint))
+        way = seconds_between(first.expected_us or 0.0, second.expected_us or 0.0)
+        total += way * (0.5 + 2.0 * (1.0 - 2.0 * _MARGIN)) + (_SAMPLES + 1) * _REST  # to its beginning, there and back
+    return total
 
 
 def near_pulses(wizard: CalibrationWizard) -> dict[Part, float]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QSpinBox, QTableView, QWidget
+from PySide6.QtWidgets import QAbstractButton, QCheckBox, QComboBox, QLabel, QSpinBox, QTableView, QWidget
 
 from rvsim.device.driver import actions, io_thread
 from rvsim.device.driver.actions import Axis, Refusal
@@ -21,6 +22,7 @@ from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels import device_calibrate
 from rvsim.gui.panels.device_calibrate import CalibratePage
+from rvsim.gui.panels.device_calibrate_sweep import sweep_seconds
 from rvsim.robot import GripperServo, Robot, Servo
 
 from .conftest import StageStub
@@ -222,7 +224,6 @@ def test_two_marks_a_joint_find_the_hidden_servos_of_an_arm(student: Student) ->
     for _ in range(robot.dof):
         student.mark_pose()
         student.mark_pose()
-        student.press("calibrate_skip")  # both ends
     for opening in (1.0, 0.0):
         student.nudge_until(robot.dof, opening, 0.04)
         student.press("calibrate_mark")
@@ -242,8 +243,12 @@ def test_an_arm_whose_angles_can_be_seen_calibrates_itself(student: Student) -> 
     student.connect()
     student.wake()
     robot, arm = student.device._session.robot, student.device.virtual
+    began, said = student.device.driver._now, sweep_seconds(student.page._wizard)
+    assert re.search(r"It takes about \d+\xa0(s|min)\.", student.text("calibrate_automatic_about"))
     student.press("calibrate_automatic")
     student.wait_until(lambda: student.text("calibrate_automatic_ending").startswith("All joints have been swept"))
+    took = student.device.driver._now - began
+    assert 0.7 < took / said < 1.4, (took, said)
     found = [result for result in student.page._wizard.results if result.joint is not None]
     errors = {result.name: worst(robot, result.new, arm.servos[result.joint], result.joint) for result in found}
     assert set(errors) == set(robot.joint_names)
@@ -302,13 +307,34 @@ def test_a_mark_is_refused_while_the_arm_moves_and_undone_when_asked(student: St
     student.wake()
     first = student.text("calibrate_title")
     student.pulse.setValue(student.pulse.value() + 100)
-    student.press("calibrate_mark")
+    student.later()
+    assert not student.find(QAbstractButton, "calibrate_mark").isEnabled()
+    student.page._on_mark()  # as where the window has not seen it move yet
     assert "still moving" in student.text("calibrate_problem")
     student.see()
     student.press("calibrate_mark")
     assert student.text("calibrate_title") != first
     student.press("calibrate_undo")
     assert student.text("calibrate_title") == first
+
+
+def test_steps_are_counted_within_a_joint_and_ends_are_asked_for_only_when_wanted(student: Student) -> None:
+    student.connect()
+    student.wake()
+    assert student.text("calibrate_where") == "Joint 1 of 6, step 1 of 2"
+    assert "translucent hand" in student.text("calibrate_virtual")
+    ends = student.find(QCheckBox, "calibrate_ends")
+    assert not ends.isChecked()
+    ends.click()
+    assert student.text("calibrate_where") == "Joint 1 of 6, step 1 of 4"
+    student.mark_pose()
+    student.mark_pose()
+    assert student.text("calibrate_where") == "Joint 1 of 6, step 3 of 4"
+    assert not student.find(QLabel, "calibrate_virtual").isVisibleTo(student.page)
+    ends.click()
+    assert student.text("calibrate_where") == "Joint 2 of 6, step 1 of 2"
+    student.choose("elbow")
+    assert student.text("calibrate_title") == "Elbow: first pose"
 
 
 def test_undo_gives_the_driver_its_old_calibration_back_and_keeps_the_connection(student: Student) -> None:
