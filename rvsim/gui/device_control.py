@@ -12,6 +12,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from rvsim.errors import RobotDefinitionError, RvsimError
 from rvsim.experiment import Experiment
 from rvsim.files import load_robot
+from rvsim.gui.device_witness import Witness
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.user_robot import own_copy
 from rvsim.gui.preferences import Preferences
@@ -30,9 +31,11 @@ if TYPE_CHECKING:
     from rvsim.device.driver.languages import LanguageName
     from rvsim.device.driver.state import DriverState
     from rvsim.device.virtual.arm import VirtualArm
+    from rvsim.playback.recording import Recording
 
 _POLL_MS = 33
 _AT_START = 2e-3  # [rad]: a motion begins only where the arm is
+_VIRTUAL = "Virtual arm"
 _CLOSED = "The window was closed."
 _RECOVERED = {
     "stopped": "The stop is reset. Nothing has moved by that; Run begins a motion from its start.",
@@ -69,6 +72,7 @@ class DeviceControl(QObject):
         self._live = False
         self._showing = False
         self._to_wake: list[int | None] = []  # one after the other: the driver takes a jump at a time
+        self._witness = Witness()  # of the last motion on the arm
         self.title = ""  # of the device, for people
         self.table: float | None = 0.0  # its height [m], None where there is none
         self._timer = QTimer(self, interval=_POLL_MS)
@@ -96,6 +100,16 @@ class DeviceControl(QObject):
     def virtual(self) -> VirtualArm | None:
         """The arm behind the wire, where it is one of this process."""
         return self._driver.virtual if self._driver else None
+
+    @property
+    def recording(self) -> Recording | None:
+        """Of the last motion on the arm, of a virtual one with its true poses; None without a device."""
+        return self._witness.recording(self._driver) if self._driver else None
+
+    @property
+    def run_words(self) -> str:
+        """How the last motion was run: on which arm, and with which faults."""
+        return self._witness.words(self._driver, self.title == _VIRTUAL) if self._driver else ""
 
     @property
     def live(self) -> bool:
@@ -133,7 +147,8 @@ class DeviceControl(QObject):
             self._session.say(str(problem), "error")
             return
         self._driver = driver
-        self.title = "Virtual arm" if is_virtual(url) else url
+        self._witness.begin()
+        self.title = _VIRTUAL if is_virtual(url) else url
         self._limits = limits
         if narrowed is not robot:
             self._take_limits(_NARROW, narrowed)
@@ -172,6 +187,7 @@ class DeviceControl(QObject):
             return
         state = self._driver.state
         before, self._state = self._state, state
+        self._witness.look(self._driver, state)
         self._go_on(state)
         if before is None or _tells_more(before, state):
             self._say_what_happened(before, state)
@@ -258,6 +274,7 @@ class DeviceControl(QObject):
         self.set_live(False)
         self._motion.pause()
         if self._tell(self._driver.run(motion, approach=True)):
+            self._witness.begin()
             self._session.say("The arm goes calmly to where the motion begins, and then runs it. Esc stops.")
 
     def grip(self, opening: float, seconds: float = 0.5) -> None:

@@ -20,6 +20,8 @@ _LEVELS: dict[Phase, str] = {
     "stopped": "error", "lost": "error",
 }  # fmt: skip
 
+LANGUAGE_WORDS = {"ssc32": "SSC-32, SSC-32U", "bridge": "Encoder bridge"}
+
 
 def phase_words(state: DriverState | None, title: str) -> str:
     """A line for the panel and the status bar: "Virtual AL5B: ready"."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,8 @@ from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 MOST_ROWS = 20_000
+REPORTED = "commanded pulse"  # a kind that is no measurement: the controller says which pulses it sends
+_STOPPED = 0.05  # [s] a motion that was recorded up to less than that before its end was not cut short
 
 
 class Errors(NamedTuple):
@@ -34,6 +37,8 @@ class Recording:
     Args:
         desired, commanded, measured: (k, n) [rad, m]; NaN where nothing is known.
         kind: what "measured" is, in words.
+        planned: how long the trajectory takes as a whole [s], NaN where that is not known.
+        true: (k, n) where the joints of a virtual arm really were; NaN where nothing is known, None for a real arm.
 
     Raises:
         ShapeError: the arrays do not fit together.
@@ -44,11 +49,13 @@ class Recording:
     commanded: FloatArray
     measured: FloatArray
     kind: str = "nothing"
+    planned: float = math.nan
+    true: FloatArray | None = None
 
     def __post_init__(self) -> None:
         t = frozen_array("t", self.t, (-1,))
         object.__setattr__(self, "t", t)
-        for name in ("desired", "commanded", "measured"):
+        for name in self.sources:
             values = frozen_array(name, getattr(self, name), (len(t), -1))
             if values.shape != self.desired.shape:
                 raise ShapeError(name, str(self.desired.shape), values.shape)
@@ -63,6 +70,41 @@ class Recording:
     def duration(self) -> float:
         """[s]."""
         return float(self.t[-1]) if len(self.t) else 0.0
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """The names of what is there, joint by joint; "true" only of a virtual arm."""
+        return ("desired", "commanded", "measured", *(("true",) if self.true is not None else ()))
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether "measured" can be a measurement, and not what a controller reports of the pulses that it sends."""
+        return self.kind != REPORTED
+
+    @property
+    def back_word(self) -> str:
+        """What that which came back is to be called."""
+        return "measured" if self.is_measured else "reported"
+
+    @property
+    def stopped_at(self) -> float | None:
+        """When the trajectory was left before its end [s]; None where it was not, or that is not known."""
+        return max(self.duration, 0.0) if self.duration < self.planned - _STOPPED else None
+
+    def on_trajectory(self) -> Recording:
+        """Without the way to the start of the trajectory and what came after its end."""
+        return self._of_rows((self.t >= 0.0) & ~(self.t > self.planned))
+
+    def with_true(self, times: FloatArray, q: FloatArray) -> Recording:
+        """With the true poses (j, n) of times (j,) [s], which increase; straight lines in between."""
+        if len(times) < 2:
+            return self
+        joints = [np.interp(self.t, times, column, left=np.nan, right=np.nan) for column in q.T]
+        return replace(self, true=np.column_stack(joints))
+
+    def _of_rows(self, rows: NDArray[np.bool_]) -> Recording:
+        parts = {name: getattr(self, name)[rows] for name in self.sources}
+        return replace(self, t=self.t[rows], **parts)
 
     @property
     def measured_rows(self) -> NDArray[np.intp]:
@@ -122,8 +164,9 @@ class Recorder:
     def __len__(self) -> int:
         return self._count
 
-    def clear(self) -> None:
-        """Begin anew."""
+    def clear(self, planned: float = math.nan) -> None:
+        """Begin anew, with a trajectory of that duration [s]."""
+        self._planned = planned
         self._count, self._stride, self._offered = 0, 1, 0
 
     def add(self, t: float, desired: FloatArray, commanded: FloatArray, measured: FloatArray | None = None) -> None:
@@ -150,4 +193,4 @@ class Recorder:
         n, table = self._joints, self._table[: self._count]
         table = table[np.argsort(table[:, 0], kind="stable")]
         columns = (table[:, 1 : 1 + n], table[:, 1 + n : 1 + 2 * n], table[:, 1 + 2 * n :])
-        return Recording(table[:, 0], *columns, kind)
+        return Recording(table[:, 0], *columns, kind, self._planned)

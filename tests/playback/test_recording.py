@@ -87,3 +87,17 @@ def test_moments_come_out_in_their_order() -> None:
     for t in (0.0, 0.06, 0.04, 0.12):
         recorder.add(t, np.array([t]), np.array([t]))
     assert recorder.recording().t.tolist() == [0.0, 0.04, 0.06, 0.12]
+
+
+def test_the_way_to_the_start_is_not_part_of_the_trajectory_and_a_stop_is_seen() -> None:
+    q = np.zeros((5, 2))
+    whole = Recording(np.array([-2.0, 0.0, 1.0, 2.0, 2.8]), q, q, q, planned=2.0).with_true(
+        np.array([0.0, 2.0]), np.array([[0.0, 0.0], [1.0, 2.0]])
+    )
+    part = whole.on_trajectory()
+    np.testing.assert_array_equal(part.t, [0.0, 1.0, 2.0])
+    np.testing.assert_array_equal(part.true, [[0.0, 0.0], [0.5, 1.0], [1.0, 2.0]])
+    assert np.isnan(whole.true[[0, -1]]).all()
+    assert whole.stopped_at is None
+    assert Recording(whole.t, q, q, q, planned=4.0).stopped_at == 2.8
+    assert Recording(whole.t, q, q, q).stopped_at is None

@@ -188,7 +188,7 @@ class DriverCore(Conversation):
         elif (refusal := far_start(self._robot, here, plan.poses[0])) is not None:
             return refusal
         self._motion = self._recorded = Running(plan)
-        self._recorder.clear()
+        self._recorder.clear(plan.duration)
         return None
 
     def _hold(self, _: actions.Hold) -> Refusal | None:

@@ -34,20 +34,28 @@ from rvsim.scene.primitives import Color, Item, Polyline
 
 _EMPTY = (
     "Nothing has run on an arm yet. Connect one on the Drive page, track a line or a trajectory, and press "
-    "“Run the motion on the arm”: what was wanted, sent and measured is compared here."
+    "“Run the motion on the arm”: what was wanted, sent and came back is compared here."
 )
 _TOOL = -1
-_COLORS = {"desired": "#0072B2", "commanded": "#009E73", "measured": "#D55E00"}
-_SENT = "sent"
+_COLORS = {"desired": "#0072B2", "commanded": "#009E73", "measured": "#D55E00", "true": "#CC79A7"}
+_WORDS = {"desired": "wanted", "commanded": "sent", "true": "really (virtual arm)"}
+_REPORTED = (
+    "The controller reported pulses that stand for a tool {rms} (RMS) from where it should have been at the same "
+    "moment, {most} at most, over {seconds}; that is no measurement: pulses come in steps of 10 µs, about 1°."
+)
+_MEASURED = (
+    "The tool was {rms} (RMS) from where it should have been at the same moment, {most} at most, over {seconds}."
+)
+_TRULY = "Really the virtual arm’s tool was {rms} (RMS) from there, {most} at most: so much nobody sees of a real arm."
+_TRUE_TIP = "Between what was wanted and where the virtual arm really was"
 _PLOT_HEIGHT = 150
 _ON_DARK = 150  # per cent of brightness
-_COLUMNS = ("Error", "Sent RMS", "Back RMS", "Back max")
-_TIPS = (
-    "A joint, or the tool",
-    "Between what was wanted and what was sent, at the same moments",
-    "Between what was wanted and what came back, at the same moments",
-    "The largest of them",
-)
+_DEVIATION = "Deviation"
+_TIPS = {
+    "commanded": "Between what was wanted and what was sent, at the same moments",
+    "measured": "Between what was wanted and what came back, at the same moments",
+    "true": _TRUE_TIP,
+}
 _Role = Qt.ItemDataRole
 
 
@@ -61,6 +69,8 @@ class MeasuredPage(InspectPage):
         super().__init__(session, preferences, stage)
         self._device = device
         self._recording: Recording | None = None
+        self._part: Recording | None = None  # of it, that on the trajectory itself
+        self._runs = False
         self.about = wrapped_label("muted")
         self.about.setObjectName("measured_about")
         self.what = combo("measured_axis", "Joint or tool")
@@ -76,9 +86,11 @@ class MeasuredPage(InspectPage):
         self.summary.setObjectName("measured_summary")
         self.summary.setWordWrap(True)
         self.model = ErrorsModel(preferences)
-        self.table = plain_table("measured_table", "Errors of joints and tool", self.model)
+        self.table = plain_table("measured_table", "Deviations of joints and tool", self.model)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
-        self.save = button("measured_save", "Save as CSV…", "Times, wanted, sent and measured joints", self._on_save)
+        self.save = button(
+            "measured_save", "Save as CSV…", "Times, and joints and tool: wanted, sent, come back", self._on_save
+        )
         self._lay_out()
         for plot in (self.curves, self.errors):
             plot.picked.connect(device.motion.seek)
@@ -114,12 +126,13 @@ class MeasuredPage(InspectPage):
             return
         self.about.setText(MEASURED_WORDS[cast(MeasuredKind, recording.kind)])
         self._offer(robot)
-        self.model.show_errors(robot, recording)
+        self._part = recording.on_trajectory()
+        self.model.show_errors(robot, self._part)
         fit_height(self.table)
-        self.summary.setText(_summary(robot, recording, self._preferences))
-        self.legend.setText(_legend(THEMES[self._preferences["theme"]].dark))
+        self.summary.setText(_summary(robot, recording, self._part, self._preferences, runs=self._runs))
+        self.legend.setText(_legend(recording, THEMES[self._preferences["theme"]].dark))
         self._draw_curves()
-        self.draw(_paths(robot, recording))
+        self.draw(_paths(robot, self._part))
 
     def set_seen(self, seen: bool) -> None:
         """What has run meanwhile is shown."""
@@ -128,13 +141,13 @@ class MeasuredPage(InspectPage):
 
     def _on_polled(self) -> None:
         """Another recording, or a longer one."""
-        driver = self._device.driver
-        if driver is None:
+        recording, state = self._device.recording, self._device.state
+        if recording is None or recording.empty:
             return
-        recording = driver.recording
-        if recording.empty or (self._recording is not None and _same(recording, self._recording)):
+        runs = state is not None and state.phase == "running"
+        if self._recording is not None and runs == self._runs and _same(recording, self._recording):
             return
-        self._recording = recording
+        self._recording, self._runs = recording, runs
         self._refresh_if_seen()
 
     def _offer(self, robot: Robot) -> None:
@@ -146,14 +159,16 @@ class MeasuredPage(InspectPage):
                     self.what.addItem(name, number - 1)
 
     def _draw_curves(self) -> None:
-        recording = self._recording
-        if recording is None or self.what.count() == 0:
+        part = self._part
+        if part is None or self.what.count() == 0:
             return
         axis = int(self.what.currentData())
         make = _tool_drawings if axis == _TOOL else _joint_drawings
-        curves, errors = make(self._session.robot, recording, axis, self._preferences)
-        self.curves.show_drawing(curves, recording.t, ())
-        self.errors.show_drawing(errors, recording.t, ())
+        curves, errors = make(self._session.robot, part, axis, self._preferences)
+        for plot, drawing in ((self.curves, curves), (self.errors, errors)):
+            plot.setVisible(not part.empty)
+            if not part.empty:
+                plot.show_drawing(drawing, part.t, ())
 
     def _on_save(self) -> None:
         if self._recording is None:
@@ -176,20 +191,22 @@ class ErrorsModel(QAbstractTableModel):
         super().__init__()
         self._preferences = preferences
         self._rows: tuple[tuple[str, str, tuple[str, ...]], ...] = ()
+        self._heads: tuple[str, ...] = (_DEVIATION,)
+        self._tips: tuple[str, ...] = ("",)
 
     def show_errors(self, robot: Robot, recording: Recording) -> None:
         """Work them out anew."""
-        sent, back = recording.joint_errors("commanded"), recording.joint_errors("measured")
+        sources = _compared(recording)
+        joints = [recording.joint_errors(name) for name in sources]
         rows = []
         for index, joint in enumerate(robot.joints):
             kind = joint_kind(robot, index)
-            values = (sent.rms[index], back.rms[index], back.max[index])
-            texts = tuple(_text(value, kind, self._preferences) for value in values)
+            texts = tuple(_text(errors.rms[index], kind, self._preferences) for errors in joints)
             rows.append((f"J{index + 1} {joint.name}", joint.color, texts))
-        tool_sent, tool_back = recording.tool_errors(robot, "commanded"), recording.tool_errors(robot, "measured")
-        values = (tool_sent.rms, tool_back.rms, tool_back.max)
-        texts = tuple(_text(float(value), length_kind(robot), self._preferences) for value in values)
-        rows.append(("Tool", "#808080", texts))
+        tool = [float(recording.tool_errors(robot, name).rms) for name in sources]
+        rows.append(("Tool", "#808080", tuple(_text(rms, length_kind(robot), self._preferences) for rms in tool)))
+        self._tips = ("A joint, or the tool", *(_TIPS[name] for name in sources))
+        self._heads = (_DEVIATION, *(f"{_short(recording, name)} RMS" for name in sources))
         self.beginResetModel()
         self._rows = tuple(rows)
         self.endResetModel()
@@ -199,8 +216,8 @@ class ErrorsModel(QAbstractTableModel):
         return len(self._rows)
 
     def columnCount(self, _parent: Index = QModelIndex()) -> int:  # noqa: B008
-        """Name and three errors."""
-        return len(_COLUMNS)
+        """Name, and the deviation of all that is known."""
+        return len(self._heads)
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = _Role.DisplayRole) -> object:
         """What stands below."""
@@ -208,7 +225,8 @@ class ErrorsModel(QAbstractTableModel):
             return None
         if role == _Role.TextAlignmentRole:
             return LEFT if section == 0 else RIGHT
-        return {_Role.DisplayRole: _COLUMNS, _Role.ToolTipRole: _TIPS}.get(_Role(role), (None,) * 4)[section]
+        texts = {_Role.DisplayRole: self._heads, _Role.ToolTipRole: self._tips}.get(_Role(role))
+        return texts[section] if texts else None
 
     def data(self, index: Index, role: int = _Role.DisplayRole) -> object:
         """One cell."""
@@ -230,58 +248,95 @@ def _same(one: Recording, other: Recording) -> bool:
     return len(one.t) == len(other.t) and one.t[0] == other.t[0] and one.t[-1] == other.t[-1]
 
 
-def _summary(robot: Robot, recording: Recording, preferences: Preferences) -> str:
-    back = recording.tool_errors(robot, "measured")
-    if not math.isfinite(float(back.rms)):
-        return "Nothing came back of this motion."
-    kind = length_kind(robot)
-    rms, most = (format_quantity(float(value), kind, preferences) for value in (back.rms, back.max))
-    seconds = f"{recording.duration:.1f} s"
-    return (
-        f"The tool was {rms} (RMS) from where it should have been at the same moment, {most} at most, over {seconds}."
-    )
+def _summary(robot: Robot, recording: Recording, part: Recording, preferences: Preferences, *, runs: bool) -> str:
+    """What the motion came to; `part` is that on the trajectory itself."""
+    sentences = []
+    if recording.stopped_at is not None and not runs:
+        sentences.append(f"It was stopped at {recording.stopped_at:.1f} of {recording.planned:.1f} s.")
+    back = _amounts(robot, part, "measured", preferences)
+    if back is None:
+        sentences.append("Nothing came back of this motion." if recording.t[-1] >= 0.0 else "It has not begun yet.")
+    else:
+        sentences.append((_MEASURED if recording.is_measured else _REPORTED).format(**back))
+    truly = _amounts(robot, part, "true", preferences) if part.true is not None else None
+    if truly is not None:
+        sentences.append(_TRULY.format(**truly))
+    return " ".join(sentences)
+
+
+def _amounts(robot: Robot, part: Recording, of: str, preferences: Preferences) -> dict[str, str] | None:
+    errors = part.tool_errors(robot, of)
+    if not math.isfinite(float(errors.rms)):
+        return None
+    rms, most = (format_quantity(float(value), length_kind(robot), preferences) for value in (errors.rms, errors.max))
+    return {"rms": rms, "most": most, "seconds": f"{part.duration:.1f} s"}
+
+
+def _compared(recording: Recording) -> tuple[str, ...]:
+    return tuple(name for name in recording.sources if name != "desired")
 
 
 def _joint_drawings(robot: Robot, recording: Recording, axis: int, preferences: Preferences) -> tuple[Drawing, Drawing]:
     shown = display(joint_kind(robot, axis), preferences)
-    values = {name: _filled(recording.t, getattr(recording, name)[:, axis]) * shown.factor for name in _COLORS}
-    lines = tuple(Line(_name(name), color, values[name], name == "desired") for name, color in _COLORS.items())
+    values = {
+        name: _filled(recording.t, getattr(recording, name)[:, axis]) * shown.factor for name in recording.sources
+    }
+    lines = tuple(Line(_name(recording, name), _COLORS[name], row, name == "desired") for name, row in values.items())
     errors = tuple(
-        Line(f"{_name(name)} − wanted", _COLORS[name], values[name] - values["desired"])
-        for name in ("commanded", "measured")
+        Line(f"{_name(recording, name)} − wanted", _COLORS[name], values[name] - values["desired"])
+        for name in _compared(recording)
     )
     unit = shown.suffix.strip()
     name = f"J{axis + 1} {robot.joint_names[axis]}"
-    return Drawing(name, unit, lines), Drawing(f"{name}, error", unit, errors)
+    return Drawing(name, unit, lines), Drawing(f"{name}, deviation", unit, errors)
 
 
 def _tool_drawings(robot: Robot, recording: Recording, _axis: int, preferences: Preferences) -> tuple[Drawing, Drawing]:
     shown = display(length_kind(robot), preferences)
-    places = {name: recording.tool_path(robot, name) * shown.factor for name in _COLORS}
+    places = {name: recording.tool_path(robot, name) * shown.factor for name in recording.sources}
     lines = tuple(
-        Line(f"{letter} {_name(name)}", _COLORS[name], _filled(recording.t, places[name][:, column]), name == "desired")
+        Line(
+            f"{letter} {_name(recording, name)}", _COLORS[name], _filled(recording.t, path[:, column]),
+            name == "desired",
+        )
         for column, letter in enumerate("xyz")
-        for name in _COLORS
-    )
+        for name, path in places.items()
+    )  # fmt: skip
     errors = tuple(
-        Line(_name(name), _COLORS[name], _filled(recording.t, recording.tool_distances(robot, name) * shown.factor))
-        for name in ("commanded", "measured")
-    )
+        Line(
+            _name(recording, name), _COLORS[name],
+            _filled(recording.t, recording.tool_distances(robot, name) * shown.factor),
+        )
+        for name in _compared(recording)
+    )  # fmt: skip
     unit = shown.suffix.strip()
-    return Drawing("Tool x, y, z", unit, lines), Drawing("Tool, distance from wanted", unit, errors)
+    return Drawing(_axes_title(recording, places), unit, lines), Drawing("Tool, deviation from wanted", unit, errors)
 
 
-def _name(source: str) -> str:
-    return {"desired": "wanted", "commanded": _SENT}.get(source, source)
+def _axes_title(recording: Recording, places: dict[str, FloatArray]) -> str:
+    """Which of the three curves is which: in the order of where they begin, from above."""
+    if recording.empty:
+        return "Tool x, y, z"
+    order = np.argsort(-np.nan_to_num(places["desired"][0]))
+    return f"Tool, at the left from above: {', '.join('xyz'[i] for i in order)}"
 
 
-def _legend(dark: bool) -> str:
+def _name(recording: Recording, source: str) -> str:
+    return _WORDS.get(source, recording.back_word)
+
+
+def _short(recording: Recording, source: str) -> str:
+    """For a narrow column: "Sent"."""
+    return _name(recording, source).split(" ")[0].capitalize()
+
+
+def _legend(recording: Recording, dark: bool) -> str:
     """The words in the colours of their curves, as the plots brighten them on a dark ground."""
-    signs = {"desired": "┄", "commanded": "━", "measured": "━"}
     parts = []
-    for source, text in _COLORS.items():
-        color = QColor(text).lighter(_ON_DARK if dark else 100).name()
-        parts.append(f'<span style="color:{color}">{signs[source]}</span>&nbsp;{_name(source)}')
+    for source in recording.sources:
+        color = QColor(_COLORS[source]).lighter(_ON_DARK if dark else 100).name()
+        sign = "┄" if source == "desired" else "━"
+        parts.append(f'<span style="color:{color}">{sign}</span>&nbsp;{_name(recording, source)}')
     return " &nbsp; ".join(parts)
 
 
@@ -295,9 +350,11 @@ def _filled(t: FloatArray, values: FloatArray) -> FloatArray:
 
 def _paths(robot: Robot, recording: Recording) -> tuple[Item, ...]:
     items = []
-    for source, color in _COLORS.items():
+    for source in recording.sources:
         places = recording.tool_path(robot, source)
         places = places[np.isfinite(places).all(axis=1)]
         if len(places) >= 2:
-            items.append(Polyline(f"measured.{source}", places, Color.from_hex(color), 2.0, dashed=source == "desired"))
+            items.append(
+                Polyline(f"measured.{source}", places, Color.from_hex(_COLORS[source]), 2.0, dashed=source == "desired")
+            )
     return tuple(items)

@@ -11,11 +11,11 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QVBox
 from rvsim.device.driver.addresses import OTHER_VIRTUAL
 from rvsim.device.driver.ports import PortChoice, available_ports
 from rvsim.experiment import DeviceSettings
+from rvsim.gui.device_words import LANGUAGE_WORDS
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, form, select
 
 _TYPED = ""
-_LANGUAGES = {"ssc32": "SSC-32, SSC-32U", "bridge": "Encoder bridge"}
 _BAUDS = {rate: f"{rate} baud" for rate in (9600, 38400, 115200, 2400)}
 
 
@@ -41,7 +41,7 @@ class PortSection(QWidget):
         self.rescan = button("device_rescan", "↻", "Look for ports again", self.scan)
         self.rescan.setFixedWidth(34)
         self.baud = combo("device_baud", "Speed of the wire", {str(rate): text for rate, text in _BAUDS.items()})
-        self.language = combo("device_language", "Language of the controller", _LANGUAGES)
+        self.language = combo("device_language", "Language of the controller", LANGUAGE_WORDS)
         self.connect_button = button(
             "device_connect_button", "Connect", "Open the port. Nothing moves", self._on_button, primary=True
         )

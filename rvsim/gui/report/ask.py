@@ -37,14 +37,14 @@ def study_of(window: MainWindow) -> Study:
         _measured(recording),
         window.device.table,
         shown_units(window.preferences),
+        "" if recording is None else window.device.run_words,
     )
 
 
 def _recording(window: MainWindow) -> Recording | None:
-    driver = window.device.driver
-    if driver is None:
+    recording = window.device.recording
+    if recording is None:
         return None
-    recording = driver.recording
     fits = not recording.empty and recording.desired.shape[1] == window.session.robot.dof
     return recording if fits else None
 

@@ -46,7 +46,7 @@ PARTS: tuple[Part, ...] = (
     Part("motion", "Curves over time", lambda study: study.trajectory is not None),
     Part(
         "measured",
-        "On the arm: sent and measured",
+        "On the arm: sent, measured or reported",
         lambda study: study.recording is not None and not study.recording.empty,
     ),
     Part("sources", "Errata of the sources", lambda study: bool(errata(study.robot))),
@@ -123,10 +123,17 @@ def _path_words(study: Study, measures: Measures) -> list[str]:
 def _measured_words(study: Study, measures: Measures) -> list[str]:
     if study.recording is None or study.recording.empty:
         return []
-    rms = float(study.recording.tool_errors(study.robot).rms)
+    part = study.recording.on_trajectory()
+    rms = float(part.tool_errors(study.robot).rms)
     if np.isnan(rms):
         return []
-    return [f"When the motion ran on an arm, the tool was {measures.length.amount(rms)} (RMS) from where it was to be."]
+    amount = measures.length.amount(rms)
+    if part.is_measured:
+        return [f"When the motion ran on an arm, the tool was {amount} (RMS) from where it was to be."]
+    return [
+        f"When the motion ran on an arm, the controller reported pulses that stand for a tool {amount} (RMS) from "
+        "where it was to be; that is no measurement."
+    ]
 
 
 def title_of(study: Study) -> str:

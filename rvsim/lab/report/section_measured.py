@@ -14,47 +14,68 @@ from rvsim.playback.recording import Recording
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-COLORS = {"desired": "#0072B2", "commanded": "#009E73", "measured": "#D55E00"}
-_DASHES = {"desired": 0, "commanded": 1, "measured": 2}
+COLORS = {"desired": "#0072B2", "commanded": "#009E73", "measured": "#D55E00", "true": "#CC79A7"}
+_DASHES = {"desired": 0, "commanded": 1, "measured": 2, "true": 3}
+_TRUE_WORDS = " “Really” is where the joints of the virtual arm truly were, which nobody can see of a real one."
+_LAGS = "Sent: the set-points commanded. The measured tool lags behind in time as well as in place."
+_REPORTED = (
+    "Sent: the set-points commanded. Reported: the pulses that the controller says it sends, later than the set-points "
+    "and in steps of 10 µs, about 1°; where the arm was is not known from them."
+)
 
 
 def measured_section(study: Study, measures: Measures) -> Section:
-    """Errors in numbers, then over time."""
+    """Deviations in numbers, then over time."""
     recording = study.recording
     assert recording is not None, "asked for only where something ran"
-    count = len(recording.measured_rows)
-    words = (
-        f"The motion ran on an arm for {number(recording.duration, 2)} s; {len(recording.t)} moments were recorded, "
-        f"{count or 'none'} of them with a measurement. {study.measured}"
-    )
+    part = recording.on_trajectory()
+    head = Paragraph(" ".join(filter(None, _words(study, recording, part))))
+    title = f"On the arm: desired, commanded, {recording.back_word}"
+    if part.empty:
+        return Section(title, (head,))
     return Section(
-        "On the arm: desired, commanded, measured",
-        (
-            Paragraph(words),
-            _table(study.robot, recording, measures),
-            *_figures(study.robot, recording, measures),
-        ),
-    )
+        title, (head, _table(study.robot, part, measures), *_figures(study.robot, part, measures))
+    )  # fmt: skip
+
+
+def _words(study: Study, recording: Recording, part: Recording) -> Iterator[str]:
+    if recording.stopped_at is None:
+        yield f"The motion ran on an arm for {number(part.duration, 2)} s."
+    else:
+        yield (
+            f"The motion was stopped at {number(recording.stopped_at, 1)} of {number(recording.planned, 1)} s; "
+            "what follows is of the part that ran."
+        )
+    yield study.run
+    count = len(part.measured_rows) or "none"
+    came = "a measurement" if recording.is_measured else "a report of the controller"
+    yield f"{len(part.t)} moments of it were recorded, {count} of them with {came}."
+    yield study.measured + (_TRUE_WORDS if recording.true is not None else "")
+
+
+def source_word(recording: Recording, name: str) -> str:
+    """What a source is called in the report."""
+    return {"measured": recording.back_word, "true": "really"}.get(name, name)
 
 
 def _table(robot: Robot, recording: Recording, measures: Measures) -> Table:
+    shown = [name for name in recording.sources if name != "desired"]
+    heads = {name: "sent" if name == "commanded" else source_word(recording, name) for name in shown}
     columns = (
-        Column("", "left"), Column("unit", "center"), Column("sent RMS"), Column("sent max"),
-        Column("measured RMS"), Column("measured max"), Column("measured mean"),
+        Column("", "left"), Column("unit", "center"),
+        *(Column(f"{heads[name]} {what}") for name in shown for what in ("RMS", "max")),
     )  # fmt: skip
-    sent, back = recording.joint_errors("commanded"), recording.joint_errors("measured")
+    joints = [recording.joint_errors(name) for name in shown]
     rows = [
         _row(f"J{i + 1} {robot.joint_names[i]}", measures.joint(i),
-             (sent.rms[i], sent.max[i], back.rms[i], back.max[i], back.mean[i]))
+             tuple(values[i] for errors in joints for values in (errors.rms, errors.max)))
         for i in range(robot.dof)
     ]  # fmt: skip
-    tool_sent, tool_back = recording.tool_errors(robot, "commanded"), recording.tool_errors(robot, "measured")
-    values = (tool_sent.rms, tool_sent.max, tool_back.rms, tool_back.max, tool_back.mean)
-    rows.append(_row("Tool, place", measures.length, values))
-    return Table(
-        "Differences from what was desired, at the same moments.", columns, tuple(rows),
-        "Sent: the set-points commanded. The measured tool lags behind in time as well as in place.", totals=1,
-    )  # fmt: skip
+    tool = [recording.tool_errors(robot, name) for name in shown]
+    rows.append(_row("Tool, place", measures.length, tuple(x for errors in tool for x in (errors.rms, errors.max))))
+    note = _LAGS if recording.is_measured else _REPORTED
+    caption = "Deviations from what was desired, at the same moments of the motion."
+    return Table(caption, columns, tuple(rows), note, totals=1)
 
 
 def _row(name: str, measure: Measure, values: tuple[float | FloatArray, ...]) -> tuple[Words, ...]:
@@ -64,10 +85,15 @@ def _row(name: str, measure: Measure, values: tuple[float | FloatArray, ...]) ->
 
 def _figures(robot: Robot, recording: Recording, measures: Measures) -> Iterator[Block]:
     charts = tuple(_joint(robot, recording, measures, index) for index in range(robot.dof))
-    yield Figure("Each joint: desired, commanded (dashed) and measured (dotted).", charts)
-    distances = {name: recording.tool_distances(robot, name) for name in ("commanded", "measured")}
+    yield Figure(f"Each joint: desired, commanded (dashed) and {recording.back_word} (dotted).", charts)
+    distances = {name: recording.tool_distances(robot, name) for name in recording.sources if name != "desired"}
     lines = tuple(
-        Curve(name, COLORS[name], *_known(recording.t, values * measures.length.factor), _DASHES[name])
+        Curve(
+            source_word(recording, name),
+            COLORS[name],
+            *_known(recording.t, values * measures.length.factor),
+            _DASHES[name],
+        )
         for name, values in distances.items()
         if np.isfinite(values).any()
     )
@@ -79,8 +105,13 @@ def _figures(robot: Robot, recording: Recording, measures: Measures) -> Iterator
 def _joint(robot: Robot, recording: Recording, measures: Measures, index: int) -> Chart:
     measure = measures.joint(index)
     lines = tuple(
-        Curve(name, color, *_known(recording.t, getattr(recording, name)[:, index] * measure.factor), _DASHES[name])
-        for name, color in COLORS.items()
+        Curve(
+            source_word(recording, name),
+            COLORS[name],
+            *_known(recording.t, getattr(recording, name)[:, index] * measure.factor),
+            _DASHES[name],
+        )
+        for name in recording.sources
         if np.isfinite(getattr(recording, name)[:, index]).any()
     )
     return Chart(f"J{index + 1} {robot.joint_names[index]}", "time [s]", f"[{measure.unit}]", lines, height=96.0)

@@ -8,6 +8,7 @@ import numpy as np
 
 from rvsim.lab.report.figures import ASSUMED, DASH, Measure, Measures, counted, subscript, transform_latex
 from rvsim.lab.report.pictures import robot_picture
+from rvsim.lab.report.servo_table import servo_tables
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Formula, Items, Paragraph, Section, Table, Words
 from rvsim.robot import Datum, Joint, Robot
@@ -36,6 +37,7 @@ def robot_section(study: Study, measures: Measures) -> Section:
             _dh_table(robot, measures),
             *_fixed_transforms(robot, measures),
             _limits_table(robot, measures),
+            *servo_tables(robot, measures),
             *_origin(robot),
         ),
     )

@@ -32,6 +32,7 @@ class Study:
         tracking, motion: the tracked path and the motion that is loaded, None where there is none.
         recording: what came back when a motion ran on an arm, None where none did.
         measured: what "measured" is there, a sentence.
+        run: how it was run: on which arm, and with which faults; sentences.
         table: its height [m], None where there is none.
     """
 
@@ -42,6 +43,7 @@ class Study:
     measured: str = ""
     table: float | None = 0.0
     units: Units = _UNITS
+    run: str = ""
 
     @property
     def robot(self) -> Robot:

@@ -100,10 +100,37 @@ def test_what_ran_on_an_arm_is_compared_with_what_was_wanted() -> None:
     wanted = np.linspace(study.robot.home, study.q, 50)
     measured = np.where(np.arange(50)[:, None] % 5 == 0, wanted + np.radians(2.0), np.nan)
     ran = replace(study, recording=Recording(np.linspace(0.0, 2.0, 50), wanted, wanted, measured), measured="By eye.")
-    rows = table(build(ran, COVER), "Differences").rows
+    rows = table(build(ran, COVER), "Deviations").rows
     assert len(rows) == study.robot.dof + 1
     assert rows[0][2] == "0.000"
     assert rows[0][4] == rows[0][5] == "2.000"
+
+
+def test_what_a_controller_reports_of_its_pulses_is_not_called_measured() -> None:
+    study = study_of("al5b")
+    t, q = np.linspace(-1.0, 1.0, 21), np.linspace(study.robot.home, study.q, 21)
+    recording = Recording(t, q, q, q + np.radians(1.0), "commanded pulse", planned=4.0).with_true(t, q + 0.01)
+    document = build(replace(study, recording=recording, run="It ran on rvsim’s virtual arm."), COVER, ("measured",))
+    section = next(section for section in document.sections if section.title.startswith("On the arm"))
+    words = [plain(block.words) for block in section.blocks if isinstance(block, Paragraph)]
+    assert section.title.endswith("reported")
+    assert "stopped at 1.0 of 4.0 s" in words[0]
+    assert "It ran on rvsim’s virtual arm." in words[0]
+    shown = table(document, "Deviations")
+    assert [column.head for column in shown.columns][2::2] == ["sent RMS", "reported RMS", "really RMS"]
+    assert "measured" not in shown.note
+    curves = next(block for block in section.blocks if isinstance(block, Figure)).pictures[0].curves
+    assert [curve.name for curve in curves] == ["desired", "commanded", "reported", "really"]
+    assert min(curve.x.min() for curve in curves) >= 0.0
+
+
+def test_an_arm_with_servos_shows_how_they_are_calibrated() -> None:
+    study = study_of("al5b", on_path=False)
+    rows = table(build(study, COVER, ("robot",)), "Calibration").rows
+    servo = study.robot.servos[0]
+    assert rows[0][1] == str(servo.channel)
+    assert float(str(rows[0][3])) == pytest.approx(servo.us_per_rad * np.pi / 180.0, abs=6e-4)
+    assert len(rows) == study.robot.dof + 1
 
 
 class _Plain:

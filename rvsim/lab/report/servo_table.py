@@ -1,0 +1,52 @@
+"""The calibration of an arm's servos: what turns its joint values into pulses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rvsim.lab.report.figures import DASH, Measures, number
+from rvsim.lab.report.values import Column, Table, Words
+from rvsim.robot import GripperServo, Robot, Servo
+
+_NOTE = "pulse = zero + direction · gain · q, kept between the shortest and the longest."
+
+
+def servo_tables(robot: Robot, measures: Measures) -> Iterator[Table]:
+    """One table, or none for an arm without servos."""
+    if not robot.servos:
+        return
+    columns = (
+        Column("Joint", "left"), Column("channel"), Column("direction"), Column(f"gain [µs/{_units(robot, measures)}]"),
+        Column("zero [µs]"), Column("min [µs]"), Column("max [µs]"), Column("origin", "left", wide=True),
+    )  # fmt: skip
+    rows = [_row(f"J{i + 1} {robot.joint_names[i]}", i, servo, measures) for i, servo in enumerate(robot.servos)]
+    gripper = robot.gripper_servo
+    note = _NOTE
+    if gripper is not None:
+        rows.append(_gripper_row(gripper))
+        note += (
+            f" The gripper is closed at {number(gripper.closed_us, 0)} µs and open at {number(gripper.open_us, 0)} µs."
+        )
+    yield Table("Calibration of the servos.", columns, tuple(rows), note)
+
+
+def _units(robot: Robot, measures: Measures) -> str:
+    units = dict.fromkeys(measures.joint(index).unit for index in range(robot.dof))
+    return " or ".join(units)
+
+
+def _row(name: str, index: int, servo: Servo, measures: Measures) -> tuple[Words, ...]:
+    gain = number(servo.us_per_rad / measures.joint(index).factor, 3)
+    ends = (number(value, 0) for value in (servo.min_us, servo.max_us))
+    direction = "+1" if servo.sign > 0 else number(-1, 0)
+    return (name, str(servo.channel), direction, gain, number(servo.zero_us, 1), *ends, _origin(servo))
+
+
+def _gripper_row(servo: GripperServo) -> tuple[Words, ...]:
+    ends = sorted((servo.closed_us, servo.open_us))
+    return ("gripper", str(servo.channel), DASH, DASH, DASH, *(number(value, 0) for value in ends), _origin(servo))
+
+
+def _origin(servo: Servo | GripperServo) -> str:
+    words = servo.source or "the robot file"
+    return f"assumed ({words})" if servo.assumed else words
