@@ -30,7 +30,12 @@ def _add_serve_options(group: argparse._ArgumentGroup) -> None:
 
 def _add_port_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--port", metavar="URL", help="COM3, /dev/ttyUSB0, al5b://, socket://127.0.0.1:5331, …")
-    group.add_argument("--wake", nargs="+", metavar="JOINT", help="joints (or gripper) that may move; they jump first")
+    group.add_argument(
+        "--wake",
+        nargs="+",
+        metavar="JOINT",
+        help="joints that may move: names, gripper, or all (joints); they jump first",
+    )
     group.add_argument("--deg", metavar='"0,90,…"', help=f"where to go: {JOINTS_NOTE}")
     group.add_argument("--seconds", type=_seconds, metavar="S", help="how long that takes at least")
     group.add_argument("--yes", action="store_true", help="it may move: somebody watches it, nobody is in its way")

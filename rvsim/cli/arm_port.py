@@ -85,6 +85,8 @@ def _connect(driver: ArmDriver) -> None:
     driver.wait(lambda state: state.phase != "connecting", _CONNECTING)
     state = driver.state
     if not state.connected:
+        if driver.url in state.reason:  # it is named once
+            raise InputError(state.reason)
         raise DeviceError(driver.url, "no arm has been reached", state.reason)
 
 
@@ -190,14 +192,14 @@ def _state_lines(options: argparse.Namespace, robot: Robot, state: DriverState) 
     from rvsim.device.driver.state import MEASURED_WORDS
 
     width = max(len(name) for name in robot.joint_names)
-    rows = (
-        f"  {name:{width}}  {'awake ' if awake else 'asleep'}  {_place(robot, joint, state)}"
-        for joint, (name, awake) in enumerate(zip(robot.joint_names, state.awake, strict=True))
-    )
+    rows = (f"  {name:{width}}  {_place(robot, joint, state)}" for joint, name in enumerate(robot.joint_names))
     head = f"{robot.title} at {options.port}: {state.board or 'a board without a name'}, {state.phase}."
     return [" ".join([head, state.reason]).rstrip(), *rows, MEASURED_WORDS[state.measured_kind]]
 
 
 def _place(robot: Robot, joint: int, state: DriverState) -> str:
     commanded, measured = float(state.commanded_q[joint]), float(state.measured_q[joint])
-    return f"commanded {_shown(robot, joint, commanded, 'nothing'):>8}  reported {_shown(robot, joint, measured):>8}"
+    reported = _shown(robot, joint, measured)
+    if state.awake[joint]:
+        return f"awake  commanded {_shown(robot, joint, commanded):>8}  reported {reported:>8}"
+    return f"not woken by rvsim; the controller reports {reported}" if np.isfinite(measured) else "asleep"

@@ -139,6 +139,8 @@ def test_a_served_arm_is_asked_and_moved_through_its_link(
     assert [joint["commanded"] for joint in record["joints"]] == pytest.approx([-10, 80, -80, 5, 5], abs=0.1)
     assert main([*ask, "--wake", "base", "--yes"]) == DONE  # its pulse is known now: it need not jump
     assert "The base wakes at −10" in capsys.readouterr().out
+    assert main(ask) == DONE
+    assert "shoulder      not woken by rvsim; the controller reports " in capsys.readouterr().out
 
 
 def test_an_arm_that_is_only_asked_stays_asleep(capsys: Capture) -> None:
@@ -168,7 +170,7 @@ def test_a_pose_outside_the_servos_wakes_nobody(capsys: Capture) -> None:
         (("--port", "al5b://", "--wake", "base", "--deg", "0,90,-90,0,0"), "add --wake all."),
         (("--port", "al5b://", "--wake", "base", "--seconds", "2"), "say with --deg where to."),
         (("--port", "al5b://?sead=1"), "there is no option “sead”. Did you mean 'seed'?"),
-        (("--port", "no-such-port"), "cannot be opened"),
+        (("--port", "no-such-port"), "The port no-such-port cannot be opened: "),
         (("--port", "al5b://", "--robot", "ur5e"), "servo"),
         (("--serve", "tcp", "--robot", "ur5e"), "servo"),
         (("--serve", "tcp", "--baud", "0"), "“0” is no baud rate"),
@@ -181,3 +183,4 @@ def test_what_cannot_be_done_is_one_sentence(capsys: Capture, arguments: tuple[s
     assert out == ""
     assert what in err
     assert err.count("\n") == 1
+    assert err.count("no-such-port") == arguments.count("no-such-port"), "a port is named once"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import logging
+import re
 import sys
 import threading
 import time
@@ -306,6 +307,7 @@ def _said_once(problem: Exception, url: str) -> str:
     text = str(problem)
     if isinstance(problem, OSError) and problem.strerror:
         text = problem.strerror
-    for prefix in (f"could not open port {url}: ", f"{url}: "):
-        text = text.removeprefix(prefix)
+    text = re.sub(rf"^could not open port '?{re.escape(url)}'?: ", "", text, flags=re.IGNORECASE)
+    text = text.removeprefix(f"{url}: ")
+    text = re.sub(r"^\[Errno \d+\] ", "", text).removesuffix(f": '{url}'")
     return text if text.endswith(".") else f"{text}."
