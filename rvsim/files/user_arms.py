@@ -52,6 +52,7 @@ def open_robot(path: Path) -> Robot:
 def named_after(robot: Robot, path: Path) -> Robot:
     """The arm as it is saved in this file: under the file's name, "longarm", and as "longarm (my RV-M1)".
 
+    In the file "my_rv-m1" it is just that: its title would say the same twice.
     A file that has its name already, or is the one offered for it, changes nothing.
     """
     stem = path.stem[:_LONGEST_NAME]
@@ -60,8 +61,14 @@ def named_after(robot: Robot, path: Path) -> Robot:
         return robot
     name = stem.lower() if stem.lower() not in robot_names() else f"my-{stem.lower()}"[:_LONGEST_NAME]
     title = robot.title.removesuffix(")").partition(" (")[2] if _is_named_after_a_file(robot) else robot.title
-    renamed = robot.renamed(name, _title(stem, title))
+    renamed = robot.renamed(name, stem if _spelt_alike(stem, title) else _title(stem, title))
     return replace(renamed, source=copied_source(robot)[:_LONGEST_SOURCE]) if builtin else renamed
+
+
+def _spelt_alike(one: str, other: str) -> bool:
+    """Whether they differ by capitals, spaces and signs alone."""
+    first, second = ("".join(filter(str.isalnum, text)).casefold() for text in (one, other))
+    return first == second
 
 
 def _is_named_after_a_file(robot: Robot) -> bool:

@@ -63,6 +63,7 @@ def test_a_file_names_its_arm_but_for_the_file_that_was_offered() -> None:
     assert (long.name, long.title) == ("longarm", "longarm (my RV-M1)")
     assert named_after(long, Path("longarm.toml")) is long
     assert named_after(long, Path("longer.toml")).title == "longer (my RV-M1)"
+    assert named_after(mine, Path("my_rv-m1.toml")).title == "my_rv-m1", "not the same twice"
     copy = named_after(rv_m1, Path("rv-m1.toml"))
     assert (copy.name, original_name(copy)) == ("my-rv-m1", "rv-m1")
 

@@ -239,4 +239,4 @@ class DrivePage(InspectPage):
 
 
 def _opening_words(opening: float) -> str:
-    return f"{opening:.0%} open" if math.isfinite(opening) else "asleep"
+    return f"{round(100.0 * opening)} % open" if math.isfinite(opening) else "asleep"
