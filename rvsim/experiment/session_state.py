@@ -10,6 +10,7 @@ from rvsim.robot.arrays import FloatArray, frozen_array
 
 Look = Literal["stick", "solid", "both"]
 Language = Literal["ssc32", "bridge"]
+Tracked = Literal["", "line", "trajectory"]
 
 
 @dataclass(frozen=True)
@@ -42,13 +43,17 @@ class CameraView:
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """How it is looked at: the camera, the arm's look, the panel or page in front, and how motions are played."""
+    """How it is looked at: the camera, the arm's look, the panel or page in front, and how motions are played.
+
+    `tracked` is the path that had been tracked, "" for none: who opens the session tracks it again.
+    """
 
     camera: CameraView | None = None
     look: Look = "solid"
     panel: str = ""
     speed: float = 1.0
     loop: bool = False
+    tracked: Tracked = ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ from rvsim.gui.device_witness import Witness
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.user_robot import own_copy
 from rvsim.gui.preferences import Preferences
-from rvsim.gui.servo_limits import ServoLimits
+from rvsim.gui.servo_limits import ServoLimits, narrowing_sentence
 from rvsim.gui.session import Session
 from rvsim.lab.before_running import objections, what_is_touched
 from rvsim.lab.sentences import Units
@@ -68,7 +68,7 @@ class DeviceControl(QObject):
         self._session, self._motion, self._preferences = session, motion, preferences
         self._driver: ArmDriver | None = None
         self._state: DriverState | None = None
-        self._limits: ServoLimits | None = None  # while those of the servos count
+        self._news = ""  # about limits, to be said once the arm is there
         self._live = False
         self._showing = False
         self._to_wake: list[int | None] = []  # one after the other: the driver takes a jump at a time
@@ -149,7 +149,8 @@ class DeviceControl(QObject):
         self._driver = driver
         self._witness.begin()
         self.title = _VIRTUAL if is_virtual(url) else url
-        self._limits = limits
+        self._session.servo_limits = limits
+        self._news = narrowing_sentence(robot, narrowed)
         if narrowed is not robot:
             self._take_limits(_NARROW, narrowed)
         self._tell(driver.connect())
@@ -193,14 +194,6 @@ class DeviceControl(QObject):
             self._say_what_happened(before, state)
         self.state_changed.emit(state)
         self.polled.emit()
-
-    def at_rest(self, experiment: Experiment) -> Experiment:
-        """The experiment as it is without a device: its arm with its own limits."""
-        if self._limits is None:
-            return experiment
-        robot = self._limits.alone(experiment.robot)
-        same = np.array_equal(robot.limits, experiment.robot.limits)
-        return experiment if same else experiment.with_robot(robot)
 
     # --- moving ----------------------------------------------------------------------------------------------------
 
@@ -301,14 +294,12 @@ class DeviceControl(QObject):
 
     def use_servos(self, servos: Sequence[Servo], gripper: GripperServo | None, text: str) -> None:
         """Take another calibration: of a copy of the user's own, in one undo step, and on the wire."""
-        shown = self._session.robot
-        alone = shown if self._limits is None else self._limits.alone(shown)
-        robot = replace(own_copy(alone), servos=tuple(servos), gripper_servo=gripper)
+        robot = replace(own_copy(self._session.at_rest.robot), servos=tuple(servos), gripper_servo=gripper)
         if self._driver is not None and not self._tell(self._driver.use_servos(robot.servos, gripper)):
             return
-        if self._limits is not None:
+        if self._session.servo_limits is not None:
             try:
-                robot = self._limits.narrow(robot)
+                robot = self._session.servo_limits.narrow(robot)
             except RobotDefinitionError as problem:
                 self._session.say(str(problem), "error")
                 return
@@ -328,10 +319,10 @@ class DeviceControl(QObject):
 
     def _narrow_again(self) -> None:
         """Undo, or an edit, has given the arm limits that its servos do not have."""
-        if self._limits is None:
+        if self._session.servo_limits is None:
             return
         try:
-            narrowed = self._limits.narrow(self._session.robot)
+            narrowed = self._session.servo_limits.narrow(self._session.robot)
         except RobotDefinitionError as problem:
             self._session.say(str(problem), "error")
             return
@@ -344,7 +335,7 @@ class DeviceControl(QObject):
         self._session.say("While an arm is connected the limits of its servos count. Disconnect it to go beyond them.")
 
     def _widen(self) -> None:
-        limits, self._limits = self._limits, None
+        limits, self._session.servo_limits = self._session.servo_limits, None
         if limits is None:
             return
         robot = limits.alone(self._session.robot)
@@ -384,9 +375,12 @@ class DeviceControl(QObject):
                 self._showing = False
 
     def _say_what_happened(self, before: DriverState | None, state: DriverState) -> None:
-        if state.reason:
+        words = state.reason
+        if state.connected and self._news:
+            words, self._news = f"{words} {self._news}".strip(), ""
+        if words:
             level = "error" if state.phase in ("stopped", "lost") else "info"
-            self._session.say(state.reason, level)
+            self._session.say(words, level)
         elif before is not None and (before.phase, state.phase) == ("running", "ready"):
             self._session.say("The arm has done the motion. The Measured page compares what came back.")
         elif before is not None and before.phase in ("stopped", "lost") and state.phase not in ("stopped", "lost"):
@@ -399,7 +393,7 @@ class DeviceControl(QObject):
             return
         if not self._takes_wiring(after.robot):
             self._driver.stop("Another arm was taken.")
-            limits, self._limits = self._limits, None
+            limits, self._session.servo_limits = self._session.servo_limits, None
             self.disconnect_device()
             if limits is not None:
                 self.left.emit(limits.alone(before.robot))

@@ -134,7 +134,7 @@ class Document(QObject):
         self.leave(self._new)
 
     def _new(self) -> None:
-        robot = self._window.device.at_rest(self._session.experiment).robot
+        robot = self._session.at_rest.robot
         self._window.device.disconnect_device()
         self._window.tracker.clear()
         self._window.motion.load(None, "")

@@ -29,7 +29,7 @@ def port_section(window: MainWindow) -> PortSection:
 
 def state_of(window: MainWindow) -> SessionState:
     """All that is to be saved, as it is now."""
-    experiment = window.device.at_rest(window.session.experiment)
+    experiment = window.session.at_rest
     left = tuple(one for one in window.session.left if not _is_untouched(window.session, one))
     return SessionState(experiment, left, port_section(window).settings, _view_of(window))
 
@@ -47,7 +47,8 @@ def _view_of(window: MainWindow) -> View:
         seen = replace(seen, target=camera.target, distance=camera.distance)
     preferences = window.preferences
     loop = window.player_bar.loop.isChecked()
-    return View(seen, preferences["look"], window.docks.front_page, preferences["speed"], loop)
+    look, panel, speed = preferences["look"], window.docks.front_page, preferences["speed"]
+    return View(seen, look, panel, speed, loop, window.tracker.asked_for)
 
 
 def show_state(window: MainWindow, state: SessionState) -> None:
@@ -60,6 +61,7 @@ def show_state(window: MainWindow, state: SessionState) -> None:
         window.library.remember(one.robot)
     window.session.begin(_fitting(window, state.experiment), left)
     port_section(window).show_settings(state.device)
+    window.tracker.track_quietly(state.view.tracked)
     _show_view(window, state.view)
 
 

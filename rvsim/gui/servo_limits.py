@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rvsim.errors import RobotDefinitionError
+from rvsim.experiment import LimitViolation
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.servos import within_servos
@@ -32,6 +33,10 @@ class ServoLimits:
         ends = _ends(robot)
         return _with_ends(robot, np.where(ends == narrowed, self._own, ends))
 
+    def holds(self, robot: Robot, violation: LimitViolation) -> bool:
+        """Whether it is the servo that does not reach there: the limit is not the arm's own."""
+        return violation.limit not in self.alone(robot).limits[violation.joint]
+
     def narrow(self, robot: Robot) -> Robot:
         """The arm with the limits that it and its servos have in common; itself where it has them.
 
@@ -42,6 +47,22 @@ class ServoLimits:
         narrowed = within_servos(alone)
         self._own = _ends(alone)
         return robot if np.array_equal(_ends(narrowed), _ends(robot)) else narrowed
+
+
+def narrowing_sentence(wide: Robot, narrow: Robot) -> str:
+    """What joints may do while the arm is connected, and what they may do without it; "" where it is the same."""
+    changed = np.flatnonzero((wide.limits != narrow.limits).any(axis=1)).tolist()
+    if not changed:
+        return ""
+    parts = (f"{wide.joint_names[j]} {_span(narrow, j)} instead of {_span(wide, j)}" for j in changed)
+    return f"While it is connected its servos set the limits: {', '.join(parts)}."
+
+
+def _span(robot: Robot, joint: int) -> str:
+    from rvsim.device.driver.plan import shown  # only who connects an arm needs the driver
+
+    lower, upper = robot.limits[joint]
+    return f"{shown(robot, joint, lower)} to {shown(robot, joint, upper)}"
 
 
 def _ends(robot: Robot) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields
 
 import numpy as np
@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
-from rvsim.experiment import Experiment, limit_violations
+from rvsim.experiment import Experiment, LimitViolation, limit_violations
+from rvsim.gui.servo_limits import ServoLimits
 from rvsim.motion import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -76,6 +77,7 @@ class Session(QObject):
         self._showing_moment = False
         self.gliding = False  # while `changed` tells of a whole new pose: whoever draws may go there smoothly
         self.undo_stack = QUndoStack(self)
+        self.servo_limits: ServoLimits | None = None  # while an arm is connected
 
     @property
     def experiment(self) -> Experiment:
@@ -96,6 +98,15 @@ class Session(QObject):
     def tracking(self) -> Tracking | None:
         """The tracked path that is shown, or None."""
         return self._tracking
+
+    @property
+    def at_rest(self) -> Experiment:
+        """The present state as it is without a device, its arm with its own limits: what files get."""
+        if self.servo_limits is None:
+            return self._experiment
+        robot = self.servo_limits.alone(self.robot)
+        same = np.array_equal(robot.limits, self.robot.limits)
+        return self._experiment if same else self._experiment.with_robot(robot)
 
     # --- edits -----------------------------------------------------------------------------------------------------
 
@@ -140,8 +151,7 @@ class Session(QObject):
         """Go to a pose, undoably; outside the limits only if they are ignored, else it is refused with a sentence."""
         violations = () if self._experiment.ignore_limits else limit_violations(self.robot, q)
         if violations:
-            names = ", ".join(self.robot.joint_names[violation.joint] for violation in violations)
-            self.warn(f"Not moved: outside the limits of {names}. Switch “Ignore limits” on to go there.")
+            self.warn(self._why_not(violations))
             return False
         self.gliding = not merge
         try:
@@ -149,6 +159,15 @@ class Session(QObject):
         finally:
             self.gliding = False
         return True
+
+    def _why_not(self, violations: Sequence[LimitViolation]) -> str:
+        names = ", ".join(self.robot.joint_names[violation.joint] for violation in violations)
+        if self.servo_limits is not None:
+            servos = [one for one in violations if self.servo_limits.holds(self.robot, one)]
+            if servos:
+                names = ", ".join(self.robot.joint_names[one.joint] for one in servos)
+                return f"Not moved: the connected arm’s servos do not reach that ({names})."
+        return f"Not moved: outside the limits of {names}. Switch “Ignore limits” on to go there."
 
     def show_moment(self, q: ArrayLike, text: str, motion: int) -> None:
         """Show a moment of a motion. All moments of the same number in a row are one undo step, back to the first.
@@ -171,7 +190,7 @@ class Session(QObject):
         """Take another arm, as it was left when it was last in use."""
         if robot is self.robot:
             return
-        self._left[self.robot.name] = self._experiment
+        self._left[self.robot.name] = self.at_rest
         left = self._left.get(robot.name)
         following = left if left and left.robot is robot else self._make_experiment(robot)
         self.edit(f"Take the {robot.title}", following.with_notes(self._experiment.notes))

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from rvsim.errors import RvsimError
 from rvsim.experiment import Experiment, limit_violations
+from rvsim.experiment.session_state import Tracked
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.repair_search import RepairSearch
 from rvsim.gui.session import Session
@@ -117,6 +118,19 @@ class PathTracker(QObject):
         else:
             self._track(self.kind, offer.title)
 
+    @property
+    def asked_for(self) -> Tracked:
+        """Which path is tracked, or being worked out: "line", "trajectory", or "" for none."""
+        if self._pending is None and self._session.tracking is None:
+            return ""
+        return "line" if self.kind == "line" else "trajectory"
+
+    def track_quietly(self, kind: Tracked) -> None:
+        """Track this path, "" for none, of a session that has been opened; nothing is played."""
+        if kind:
+            self._quiet = True
+            self._track(kind, f"Track {kind}")
+
     def track_again(self) -> None:
         """The last path once more, for an arm with other limits; nothing is played."""
         if self._done:
@@ -131,7 +145,7 @@ class PathTracker(QObject):
     def cancel(self) -> None:
         """Give up what is being worked out; what was tracked before stays."""
         if self._pending is not None:
-            self._pending = None
+            self._pending, self._quiet = None, False
             self._worker.cancel()
             self.busy_changed.emit(False)
             self._session.say("Given up. What was tracked before is still there.")
@@ -194,6 +208,7 @@ class PathTracker(QObject):
                 return
             done = job()
         except (RvsimError, OSError) as problem:
+            self._quiet = False
             self._session.say(str(problem), "error")
             return
         self._finish(done)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from rvsim.experiment import Experiment, LineTask
 from rvsim.files import load_robot
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.panels.user_robot import saved
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.motion import joint_move
@@ -189,3 +191,26 @@ def test_neither_a_pose_nor_the_live_window_takes_the_arm_into_the_table(desk: D
     desk.device.poll()
     assert desk.device.state is not None
     np.testing.assert_allclose(desk.device.state.commanded_q, desk.session.robot.home, atol=1e-2)
+
+
+def test_files_get_the_limits_of_the_arm_alone(desk: Desk, tmp_path: Path) -> None:
+    own = desk.session.robot
+    desk.connect()
+    assert desk.session.robot.limits[SHOULDER, 1] < own.limits[SHOULDER, 1]
+    assert saved(desk.session, tmp_path / "mine.toml")[0]
+    np.testing.assert_allclose(load_robot(tmp_path / "mine.toml").limits, own.limits)
+    np.testing.assert_array_equal(desk.session.at_rest.robot.limits, own.limits)
+    assert desk.session.robot.limits[SHOULDER, 1] < own.limits[SHOULDER, 1], "the narrow ones still count"
+    desk.session.use_robot(load_robot("rv-m1"))
+    np.testing.assert_array_equal(desk.session.left[0].robot.limits, own.limits)
+
+
+def test_it_says_what_the_servos_narrow_and_that_they_do_not_reach_further(desk: Desk) -> None:
+    own = desk.session.robot
+    desk.connect()
+    (told,) = [text for text in desk.said if "servos set the limits" in text]
+    assert "shoulder 0.0° to 168.0° instead of " in told
+    beyond = np.array(desk.session.q)
+    beyond[SHOULDER] = own.limits[SHOULDER, 1]
+    assert not desk.session.move_to(beyond, "Go")
+    assert desk.said[-1] == "Not moved: the connected arm’s servos do not reach that (shoulder)."

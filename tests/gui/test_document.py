@@ -112,6 +112,26 @@ def test_a_saved_session_opens_the_same_in_another_window_and_saves_to_the_same_
     assert (tmp_path / "second.rvsim").read_bytes() == file.read_bytes()
 
 
+def test_a_path_that_was_tracked_is_tracked_again_and_not_played(
+    window: MainWindow, own_window: MainWindow, tmp_path: Path
+) -> None:
+    window.tracker.track_line()
+    window.motion.pause()
+    file, second = tmp_path / "first.rvsim", tmp_path / "second.rvsim"
+    assert window.document.save_to(file)
+    assert own_window.document.open(file)
+    assert window.session.tracking is not None
+    assert own_window.session.tracking is not None
+    assert len(own_window.session.tracking.q) == len(window.session.tracking.q)
+    assert not own_window.motion.player.playing
+    assert not own_window.document.dirty
+    assert own_window.document.save_to(second)
+    assert second.read_bytes() == file.read_bytes()
+    own_window.tracker.clear()
+    assert own_window.document.save_to(second)
+    assert '"tracked"' not in second.read_text()
+
+
 def test_the_title_says_name_arm_and_whether_there_is_something_to_save(window: MainWindow, tmp_path: Path) -> None:
     assert window.windowTitle() == "Untitled – Mitsubishi RV-M1 – rvsim"
     window.joints._rows[2].moved.emit(2, -0.5)

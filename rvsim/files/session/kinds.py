@@ -34,11 +34,12 @@ class Kind(Protocol):
 
 
 class Field(NamedTuple):
-    """One key of a record, and what it is when absent."""
+    """One key of a record, and what it is when absent; a `sparse` one is not written where it is that."""
 
     name: str
     kind: Kind
     default: Any = REQUIRED
+    sparse: bool = False
 
 
 @dataclass(frozen=True)
@@ -269,9 +270,10 @@ class Record:
             place.refuse(f"values that cannot be ({problem})", "values that can")
 
     def plain(self, value: Any) -> dict[str, Any]:
-        """All its keys, in their order."""
+        """Its keys, in their order."""
         parts = self.parts(value)
-        return {field.name: field.kind.plain(parts[field.name]) for field in self.fields}
+        written = [field for field in self.fields if not (field.sparse and parts[field.name] == field.default)]
+        return {field.name: field.kind.plain(parts[field.name]) for field in written}
 
 
 def _read(field: Field, table: dict[str, Any], place: Place) -> Any:

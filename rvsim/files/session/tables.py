@@ -30,7 +30,7 @@ from rvsim.experiment import (
     View,
     WrenchAxes,
 )
-from rvsim.experiment.session_state import Language, Look
+from rvsim.experiment.session_state import Language, Look, Tracked
 from rvsim.experiment.shapes import FormulaStage, Join, TextShape
 from rvsim.files.place import Place, shown
 from rvsim.files.session.kinds import (
@@ -316,6 +316,7 @@ _VIEW = Record(
         Field("panel", Words(60), ""),
         Field("speed", Real(1e-3, 1e3), 1.0),
         Field("loop", Flag(), False),
+        Field("tracked", Choice(get_args(Tracked)), "", sparse=True),
     ),
     View,
 )

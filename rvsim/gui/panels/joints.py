@@ -34,6 +34,12 @@ from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _IGNORE_HINT = "Switch “Ignore limits” on to go there."
+_SERVO_HINTS = {  # by whether the servo narrows the lower limit, and the upper one
+    (False, False): _IGNORE_HINT,
+    (True, False): "Below that the servo of the connected arm does not reach.",
+    (False, True): "Above that the servo of the connected arm does not reach.",
+    (True, True): "The servo of the connected arm does not reach it.",
+}
 _SHORTEST_NAME = 4  # letters of a pose's name that can be read at least
 _LONGEST = "−1000.0 mm"
 _SLIDER_STEPS = {"angle": math.radians(0.1), "length": 1e-4, "unit_length": 1e-3}
@@ -124,11 +130,15 @@ class JointRow(QWidget):
     def _size_box(self) -> None:
         self.box.setFixedWidth(max(104, text_metrics().horizontalAdvance(_LONGEST) + 18))
 
-    def show_limits(self, ignore_limits: bool) -> None:
-        """Let box and slider go as far as they may, and write at the slider's ends how far that is."""
+    def show_limits(self, ignore_limits: bool, hint: str = _IGNORE_HINT) -> None:
+        """Let box and slider go as far as they may, and write at the slider's ends how far that is.
+
+        Args:
+            hint: a sentence about values beyond the limits.
+        """
         lower, upper = self._robot.limits[self._index]
         taken = (-math.inf, math.inf) if ignore_limits else (float(lower), float(upper))
-        self.box.set_range(taken[0], taken[1], _IGNORE_HINT)
+        self.box.set_range(taken[0], taken[1], hint)
         shown = display(self._kind, self._preferences)
         ends = slider_range(self._robot, self._index, ignore_limits)
         decimals = 0 if self._kind == "angle" and shown.factor != 1.0 else shown.decimals
@@ -336,8 +346,10 @@ class JointsPanel(QWidget):
         ignored = self._session.experiment.ignore_limits
         with QSignalBlocker(self.ignore):
             self.ignore.setChecked(ignored)
-        for row in self._rows:
-            row.show_limits(ignored)
+        servos = self._session.servo_limits
+        own = servos.alone(self._session.robot).limits if servos else self._session.robot.limits
+        for row, narrowed in zip(self._rows, self._session.robot.limits != own, strict=True):
+            row.show_limits(ignored, _SERVO_HINTS[bool(narrowed[0]), bool(narrowed[1])])
 
     def _show_pose(self) -> None:
         for row, value in zip(self._rows, self._typed, strict=True):

@@ -78,15 +78,16 @@ def saved(session: Session, path: Path) -> tuple[bool, str]:
     In a file of another name the arm is named after the file, and the session goes on with that arm.
     """
     path = path if path.suffix else path.with_suffix(".toml")
-    robot = named_after(session.robot, path)
+    robot = named_after(session.at_rest.robot, path)
     try:
         save_robot(robot, path)
     except RvsimError as problem:
         return False, str(problem)
     except OSError as problem:
         return False, f"Not saved: {path} cannot be written ({problem.strerror or problem})."
-    if robot is not session.robot:
-        session.edit(f"Save as {path.name}", session.experiment.with_robot(robot))
+    shown = named_after(session.robot, path)  # its limits are narrower while an arm is connected
+    if shown is not session.robot:
+        session.edit(f"Save as {path.name}", session.experiment.with_robot(shown))
     return True, f"Saved {robot.title} as {path}."
 
 
