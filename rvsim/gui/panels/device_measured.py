@@ -46,11 +46,15 @@ _REPORTED = (
 _MEASURED = (
     "The tool was {rms} (RMS) from where it should have been at the same moment, {most} at most, over {seconds}."
 )
-_TRULY = "Really the virtual arm’s tool was {rms} (RMS) from there, {most} at most: so much nobody sees of a real arm."
+_TRULY = (
+    "Really the virtual arm’s tool was {rms} (RMS) from there, {most} at most: its servos lag, sag, and differ from an "
+    "arm’s file until they are calibrated. Of a real arm nobody sees that."
+)
+_MOST_TIP = "The largest between what was wanted and what came back"
 _TRUE_TIP = "Between what was wanted and where the virtual arm really was"
 _PLOT_HEIGHT = 150
 _ON_DARK = 150  # per cent of brightness
-_DEVIATION = "Deviation"
+_DEVIATION = "Deviation, RMS"
 _TIPS = {
     "commanded": "Between what was wanted and what was sent, at the same moments",
     "measured": "Between what was wanted and what came back, at the same moments",
@@ -197,16 +201,19 @@ class ErrorsModel(QAbstractTableModel):
     def show_errors(self, robot: Robot, recording: Recording) -> None:
         """Work them out anew."""
         sources = _compared(recording)
-        joints = [recording.joint_errors(name) for name in sources]
+        most = () if "true" in sources else ("measured",)  # there is room for four columns
+        joint_values = [*(recording.joint_errors(name).rms for name in sources)]
+        joint_values += [*(recording.joint_errors(name).max for name in most)]
         rows = []
         for index, joint in enumerate(robot.joints):
             kind = joint_kind(robot, index)
-            texts = tuple(_text(errors.rms[index], kind, self._preferences) for errors in joints)
+            texts = tuple(_text(values[index], kind, self._preferences) for values in joint_values)
             rows.append((f"J{index + 1} {joint.name}", joint.color, texts))
         tool = [float(recording.tool_errors(robot, name).rms) for name in sources]
-        rows.append(("Tool", "#808080", tuple(_text(rms, length_kind(robot), self._preferences) for rms in tool)))
-        self._tips = ("A joint, or the tool", *(_TIPS[name] for name in sources))
-        self._heads = (_DEVIATION, *(f"{_short(recording, name)} RMS" for name in sources))
+        tool += [float(recording.tool_errors(robot, name).max) for name in most]
+        rows.append(("Tool", "#808080", tuple(_text(value, length_kind(robot), self._preferences) for value in tool)))
+        self._tips = ("A joint, or the tool", *(_TIPS[name] for name in sources), *(_MOST_TIP for _ in most))
+        self._heads = (_DEVIATION, *(_short(recording, name) for name in sources), *("At most" for _ in most))
         self.beginResetModel()
         self._rows = tuple(rows)
         self.endResetModel()

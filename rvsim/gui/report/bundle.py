@@ -157,7 +157,7 @@ def _files(study: Study, order: Order) -> dict[str, _File]:
         found["motion.csv"] = _File("joints, their rates and the tool over time", lambda: motion_csv(curves).encode())
     if recording is not None and not recording.empty:
         table = recording_csv(study.robot, recording)
-        found["measured.csv"] = _File("what was desired, commanded and measured", table.encode)
+        found["measured.csv"] = _File(f"what was desired, commanded and {recording.back_word}", table.encode)
     session = order.session
     if session is not None:
         found["experiment.rvsim"] = _File("the experiment itself, for rvsim to open", lambda: session)
