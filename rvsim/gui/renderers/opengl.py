@@ -47,7 +47,7 @@ def _canvas(width: int, height: int, samples: int) -> QOpenGLFramebufferObject:
     form.setSamples(samples)
     canvas = QOpenGLFramebufferObject(max(width, 1), max(height, 1), form)
     canvas.bind()
-    QOpenGLContext.currentContext().functions().glViewport(0, 0, width, height)
+    GL.glViewport(0, 0, width, height)
     return canvas
 
 
@@ -209,7 +209,17 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
         self.frame = self._frame_of(self.width(), self.height())
         self._layers.shadow.prepare(self.frame)
         self.frame.functions.glEnable(GL.GL_MULTISAMPLE)  # the texts' painter has switched it off
-        super().paintGL()
+        try:
+            super().paintGL()
+        finally:
+            self._let_go()
+
+    def _let_go(self) -> None:
+        """Keep no functions of the context between frames.
+
+        They end with it, and whatever is made in their place then is taken for them: a context, for instance.
+        """
+        self.frame = None
 
     def _frame_of(self, width: int, height: int) -> Frame:
         return Frame(
@@ -247,6 +257,7 @@ class OpenGLView(GLViewWidget):  # type: ignore[misc]
             [Dots("proof", self.camera.target[None], Color(1.0, 1.0, 1.0), _PROOF / 2)], Color(0.0, 0.0, 0.0)
         )
         dot.draw(self.frame)
+        self._let_go()
         target.release()
         picture = target.toImage()
         if picture.pixelColor(_PROOF // 2, _PROOF // 2).red() < 250 or picture.pixelColor(0, 0).red() > 5:
