@@ -91,7 +91,10 @@ class Life:
         self._last = "the start"
 
     def live(self) -> None:
-        """Play until all deeds are done or something was found; then close, and see that nothing stays behind."""
+        """Play until all deeds are done, one of them was to quit, or something was found; then close.
+
+        Nothing may stay behind.
+        """
         self.window.show()
         self.watch.rest()
         self._next(0.0)
@@ -114,7 +117,7 @@ class Life:
 
     def _turn(self) -> None:
         """One deed. The next one is called for before: a deed that waits in a loop of its own gets its answer so."""
-        if self.done >= self.events or self.watch.findings:
+        if self.done >= self.events or self.watch.findings or not self.window.isVisible():
             self._leave()
             return
         if self._depth and front() is None:
@@ -165,7 +168,10 @@ class Life:
         """Out of all inner loops, then out of the outer one."""
         self.watch.rest()
         ahead = front()
-        if ahead is not None or self._depth:
+        if ahead is None and self._depth:
+            self._hold_on()
+            return
+        if ahead is not None:
             self._next(0.01)
             self.do(Deed("file_dialog" if file_dialog() is not None else "answer", () if file_dialog() else (0.7,)))
             return

@@ -108,6 +108,10 @@ class World:
         worse = (f"/proc/rvsim{ending}", str(self.folder / ("x" * 300 + ending)), "")
         return self.dice.choice((sound, sound, sound, *bad, *worse)), ""
 
+    def folder_to_save(self, *_: Any, **__: Any) -> str:
+        """A folder that is there, maybe one in which nothing can be written, or none."""
+        return self.dice.choice((str(self.folder / "out"), str(self.folder), "/proc", ""))
+
     def path_to_open(self, *_: Any, **__: Any) -> tuple[str, str]:
         """What the user picks: files good and bad, a folder, nothing."""
         odd = ("", str(self.folder), str(self.folder / "none.toml"), "/proc/self/mem")
@@ -128,7 +132,7 @@ class World:
         real = time.time
         self._put(QFileDialog, "getSaveFileName", staticmethod(self.path_to_save))
         self._put(QFileDialog, "getOpenFileName", staticmethod(self.path_to_open))
-        self._put(QFileDialog, "getExistingDirectory", staticmethod(lambda *_, **__: self.path_to_save()[0]))
+        self._put(QFileDialog, "getExistingDirectory", staticmethod(self.folder_to_save))
         self._put(QDesktopServices, "openUrl", staticmethod(lambda *_: True))
         self._put(serial.tools.list_ports, "comports", lambda *_, **__: [])
         self._put(time, "time", lambda: real() + self._jump)
