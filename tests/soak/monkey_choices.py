@@ -6,7 +6,7 @@ import random
 from typing import TypeVar
 
 from monkey_sight import Deed, Playing, can_be_reached, file_dialog, focus_words, front, name_of
-from PySide6.QtCore import QPoint, QRect
+from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 
 from rvsim.gui.page_stack import PageStack
 
+_DESCRIPTION = Qt.ItemDataRole.AccessibleDescriptionRole
 W = TypeVar("W", bound=QWidget)
 TEXTS = (
     *("nan", "inf", "-inf", "1e308", "-1e308", "1e-320", "", " ", "0", "-0", "1,5", "1.234,5", "12 345", "9" * 400),
@@ -215,13 +216,14 @@ class Choices:
         return Deed("robot", (self._dice.randrange(max(self._play.window.joints.robots.count(), 1)),))
 
     def _undo(self) -> Deed:
-        return Deed("undo", (self._dice.choice((1, 1, 2, 10)), self._dice.random() < 0.4))
+        return Deed("undo", (self._dice.random() < 0.4,))
 
     def _combo(self) -> Deed:
         widget = self._seen(self._top(), QComboBox)
-        if widget is None or not widget.count():
+        number = self._dice.randrange(widget.count()) if widget is not None and widget.count() else 0
+        if widget is None or widget.itemData(number, _DESCRIPTION) == "separator":
             return Deed("wait", (0.01,))
-        return Deed("combo", (name_of(widget), self._dice.randrange(widget.count())), name_of(widget))
+        return Deed("combo", (name_of(widget), number), name_of(widget))
 
     def _resize(self) -> Deed:
         return Deed("resize", self._dice.choice(((1024, 600), (1366, 768), (300, 200), (1920, 1080), (1100, 900))))

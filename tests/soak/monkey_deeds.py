@@ -110,13 +110,12 @@ class Deeds:
             combo.setCurrentIndex(number)
             combo.activated.emit(number)
 
-    def _do_undo(self, times: int, forth: bool) -> None:
-        for _ in range(times):
+    def _do_undo(self, forth: bool) -> None:
+        stack = self._play.window.session.undo_stack
+        if not forth:
             self._do_key("Z", "ControlModifier")
-        if forth:
-            stack = self._play.window.session.undo_stack
-            if front() is None and stack.canRedo():
-                stack.redo()
+        elif front() is None and stack.canRedo():
+            stack.redo()
 
     def _do_combo(self, name: str, number: int) -> None:
         for combo in (front() or self._play.window).findChildren(QComboBox):

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
+from rvsim.gui.panels.shown import ReadOutPanel
 from rvsim.gui.session import Session
 
 
@@ -38,6 +39,11 @@ class CopyButton(QToolButton):
         self.setMenu(menu)
 
     def copy_as(self, format_name: str) -> None:
-        """Put the text in that format on the clipboard."""
+        """Put the text in that format on the clipboard: what is true now, though the panel may lie behind others."""
+        around = self.parentWidget()
+        while around is not None:
+            if isinstance(around, ReadOutPanel):
+                around.catch_up()
+            around = around.parentWidget()
         QGuiApplication.clipboard().setText(self._formats[format_name]())
         self._session.say(f"Copied {self._what} as {format_name}.")

@@ -110,8 +110,9 @@ class HowPanel(ReadOutPanel):
         return float("inf") if end.branch is None else float(np.abs(end.branch.q - self._session.q).max())
 
     def refresh(self) -> None:
-        """Work out what is now, but not more often than one can read."""
-        if self._pause.isActive():
+        """Work out what is now, but not more often than one can read; another arm at once."""
+        same_arm = self._shown_for is not None and self._shown_for[0] is self._session.robot
+        if same_arm and self._pause.isActive():
             self._waiting = True
             return
         self._work_out()

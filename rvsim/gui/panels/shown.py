@@ -48,19 +48,22 @@ class ReadOutPanel(QWidget):
         if not self._stale:
             self.refresh()
 
-    def event(self, event: QEvent) -> bool:
-        """Catch up when the dock comes to the front: Qt tells of it by a paint alone."""
-        if event.type() == QEvent.Type.Paint and self._stale:
+    def catch_up(self) -> None:
+        """Work out what has been put off, for somebody asks for it though it cannot be seen."""
+        if self._stale:
             self._stale = False
             self.refresh()
+
+    def event(self, event: QEvent) -> bool:
+        """Catch up when the dock comes to the front: Qt tells of it by a paint alone."""
+        if event.type() == QEvent.Type.Paint:
+            self.catch_up()
         return super().event(event)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Catch up with what happened while hidden."""
         super().showEvent(event)
-        if self._stale:
-            self._stale = False
-            self.refresh()
+        self.catch_up()
 
     def changeEvent(self, event: QEvent) -> None:
         """Another font: other widths and heights."""

@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QToolButton
 
+from rvsim.files import load_robot
 from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.how import HowPanel
 
@@ -140,3 +141,12 @@ def test_the_copy_is_a_latex_document(panel):
     assert text.startswith("\\documentclass")
     assert "\\begin{align*}" in text
     assert text.count("\\subsection") > len(panel.solution.along(panel.followed))
+
+
+@pytest.mark.parametrize("hidden", [False, True])
+def test_what_is_copied_is_of_the_arm_that_is_there_now(panel, hidden):
+    panel.setHidden(hidden)
+    panel._session.move_to(POSE + 0.1, "Plot")
+    panel._session.use_robot(load_robot("ur5e"))
+    panel.copy.copy_as("LaTeX of this way only")
+    assert {len(end.branch.q) for end in panel.solution.branches if end.branch} == {6}
