@@ -313,9 +313,9 @@ class TargetControl(QObject):
         self._refresh(self._stale_target())
 
     def _refresh(self, T: FloatArray) -> None:
-        """Solve for a target with the arm where it is."""
+        """Solve for a target with the arm where it is; while that moves, without what takes long."""
         self.T, self._stale = T, False
-        self._show(solve(self._question(T)), self.session.q)
+        self._show(solve(self._question(T), hurried=self.session.continuing), self.session.q)
         self.changed.emit()
 
     def _solve_again(self) -> None:

@@ -36,7 +36,7 @@ from rvsim.gui.preferences import Preferences
 WARM = 5000  # events, before which a life's size does not count
 GROWTH_MB = 100.0  # that a life may grow by after them
 MEASURED = 2500  # events from one measuring to the next
-SWITCHES_MB = 25.0  # that robot switches may grow by after the first fifth
+SWITCHES_MB = 50.0  # that a thousand robot switches may grow by after the first fifth
 OBJECTS, WINDOWS = 1.05, 1.6  # times as many, at most; menus are windows too, and a dialog may bring fifty
 
 

@@ -166,7 +166,7 @@ class WorkspacePage(InspectPage):
 
             self._plot, self._bar = SectionPlot(self._preferences), ScaleBar(self._preferences)
             self._plot.pointed.connect(self._show_pointed)
-            self._plot.clicked.connect(lambda u, v: self.query.ask(self._at(u, v)))
+            self._plot.clicked.connect(self._on_clicked)
             at = self._column.indexOf(self.place)
             self._column.insertWidget(at, self._bar)
             self._column.insertWidget(at, self.pointed)
@@ -260,6 +260,11 @@ class WorkspacePage(InspectPage):
         """(3,) the place in base axes at (u, v) [m] of the map."""
         assert self.section is not None
         return self.section.place((u, v))
+
+    def _on_clicked(self, u: float, v: float) -> None:
+        """Ask about a place of the map, if there still is one: another arm has none yet."""
+        if self.section is not None:
+            self.query.ask(self._at(u, v))
 
     def _show_pointed(self, u: float, v: float) -> None:
         """Where the pointer is; nan where it has left."""

@@ -33,6 +33,7 @@ _TUBE_WIDTH = 4.0  # from this width on a line is shaded like a tube
 _FINE = 5.0  # [pixels]
 _SHORT, _MANY = 25, 200  # points
 _AXIS_WIDTH = 2.2
+_FAR = 20_000.0  # [pixels] a line that is longer runs far out of the picture
 _FEW_DOTS = 200  # with more in one item they are a cloud
 
 
@@ -40,7 +41,7 @@ def polyline_strokes(seen: Seen[Polyline], lens: Lens, solids: SolidPicture | No
     """A polyline, less what the solids hide of it."""
     before = lens.before(seen.eye)
     if solids is None and len(before) < _MANY and before.all():
-        return [_line_stroke(float(seen.eye[:, 2].mean()), seen.pixels, seen.item)] if len(before) > 1 else []
+        return [_line_stroke(float(seen.eye[:, 2].mean()), seen.pixels, seen.item, lens)] if len(before) > 1 else []
     strokes = []
     for eye in _runs(seen.eye, before):
         thin = _thinned(eye, lens)
@@ -48,7 +49,7 @@ def polyline_strokes(seen: Seen[Polyline], lens: Lens, solids: SolidPicture | No
         pixels = lens.pixels(fine)
         shown = np.ones(len(fine), dtype=bool) if solids is None else ~solids.hides(pixels, fine[:, 2])
         strokes += [
-            _line_stroke(float(fine[start:stop, 2].mean()), pixels[start:stop], seen.item)
+            _line_stroke(float(fine[start:stop, 2].mean()), pixels[start:stop], seen.item, lens)
             for start, stop in _spans(shown)
         ]
     return strokes if before.all() else strokes + _cut_strokes(seen, lens)
@@ -99,15 +100,15 @@ def _cut_strokes(seen: Seen[Polyline], lens: Lens) -> list[Stroke]:
     if not len(crossing):
         return []
     pieces = np.stack([seen.eye[crossing], seen.eye[crossing + 1]], axis=1)
-    return [_line_stroke(lens.near, piece, seen.item) for piece in clipped_pieces(pieces, lens)]
+    return [_line_stroke(lens.near, piece, seen.item, lens) for piece in clipped_pieces(pieces, lens)]
 
 
-def _line_stroke(depth: float, pixels: FloatArray, item: Polyline) -> Stroke:
+def _line_stroke(depth: float, pixels: FloatArray, item: Polyline, lens: Lens) -> Stroke:
     color, width, dashed = item.color, item.width, item.dashed
     if width < _TUBE_WIDTH:
         depth = math.inf  # paths lie under the figure, in the order of the scene: the actual one on the desired one
     if dashed:
-        return Stroke(depth, partial(_draw_dashes, _dashes(pixels), color, width))
+        return Stroke(depth, partial(_draw_dashes, _dashes(pixels, lens), color, width))
     # Qt strokes short lines faster. But joints of see-through lines would show.
     long = len(pixels) > 2 * _SHORT and color.alpha >= 1.0
     lines = [polygon(piece) for piece in (_short_pieces(pixels) if long else [pixels])]
@@ -116,13 +117,38 @@ def _line_stroke(depth: float, pixels: FloatArray, item: Polyline) -> Stroke:
     return Stroke(depth, lambda painter: _draw_lines(painter, lines, color, width))
 
 
-def _dashes(pixels: FloatArray) -> list[QLineF]:
+def _dashes(pixels: FloatArray, lens: Lens) -> list[QLineF]:
     """The dashes of a line, as straight pieces: Qt takes five times as long to cut and stroke them itself."""
     lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
-    starts = np.arange(0.0, lengths[-1], DASH + GAP)
+    starts = _dash_starts(pixels, lengths, lens)
     cuts = np.stack([starts, np.minimum(starts + DASH, lengths[-1])], axis=1)
     x, y = (np.interp(cuts, lengths, pixels[:, axis]) for axis in (0, 1))
     return [QLineF(*piece) for piece in np.stack([x[:, 0], y[:, 0], x[:, 1], y[:, 1]], axis=1).tolist()]
+
+
+def _dash_starts(pixels: FloatArray, lengths: FloatArray, lens: Lens) -> FloatArray:
+    """Where along a line (k, 2) its dashes begin; of a line that runs far out of the picture, only those in it."""
+    period = DASH + GAP
+    if lengths[-1] <= _FAR:
+        return np.arange(0.0, lengths[-1], period)
+    enters, leaves = _shares_in_picture(pixels, lens)
+    spans = np.diff(lengths)
+    begins, ends = lengths[:-1] + enters * spans, lengths[:-1] + leaves * spans
+    seen = np.flatnonzero(ends > begins)  # a comparison with nan is False
+    stretches = [np.arange(math.floor(begins[i] / period) * period, ends[i], period) for i in seen]
+    return np.unique(np.concatenate([np.empty(0), *stretches]))
+
+
+def _shares_in_picture(pixels: FloatArray, lens: Lens) -> tuple[FloatArray, FloatArray]:
+    """Of each piece of a line (k, 2) the shares (k - 1,) where it enters the picture and leaves it, by slabs."""
+    begin, way = pixels[:-1], np.diff(pixels, axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        sides = np.stack([(edge - begin) / way for edge in (np.zeros(2), np.array([lens.width, lens.height]))])
+    inside = (begin >= 0.0) & (begin <= [lens.width, lens.height])
+    level = np.where(inside, np.inf, np.nan)  # along an axis in which it does not move it is inside, or never
+    first = np.where(way == 0.0, -level, sides.min(axis=0))
+    last = np.where(way == 0.0, level, sides.max(axis=0))
+    return np.maximum(first.max(axis=1), 0.0), np.minimum(last.min(axis=1), 1.0)
 
 
 def _draw_dashes(dashes: list[QLineF], color: Color, width: float, painter: QPainter) -> None:

@@ -250,3 +250,11 @@ def test_the_pointer_on_the_map_tells_its_place_and_a_click_asks_for_it(page_of,
     np.testing.assert_allclose(page.query.place.values, [0.3, 0.0, 0.2], atol=1e-12)
     page._plot.pointed.emit(float("nan"), float("nan"))
     assert page.pointed.text().startswith("Point at the map")
+
+
+def test_a_click_on_the_map_of_another_arm_asks_nothing(page_of, qtbot) -> None:
+    page = sampled(page_of("rv-m1"), qtbot)
+    page._session.use_robot(load_robot("ur5e"))
+    assert page.section is None
+    page._plot.clicked.emit(0.1, 0.1)
+    assert page.section is None

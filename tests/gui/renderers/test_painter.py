@@ -237,3 +237,20 @@ def test_a_ghost_arm_stands_behind_the_arm() -> None:
         _pixels(scene_image(haunted, camera, WIDTH, HEIGHT)) - _pixels(scene_image(scene, camera, WIDTH, HEIGHT))
     )
     assert (difference.max(axis=2) > 8).sum() < 400  # only along the smooth edges
+
+
+@pytest.mark.parametrize("far", [1e3, 1e6, 1e12])
+@pytest.mark.parametrize("tilt", [0.0, 0.3])
+def test_a_dashed_line_to_far_away_has_only_the_dashes_that_are_seen(far: float, tilt: float) -> None:
+    ends = np.array([[0.0, -0.5, -0.5 * tilt], [0.0, 2e1, 2e1 * tilt]])
+    near = _painted(Polyline("dashes", ends, RED, 2.0, dashed=True))
+    away = ends[0] + far * (ends[1] - ends[0])
+    distant = _painted(Polyline("dashes", np.array([ends[0], away]), RED, 2.0, dashed=True))
+    red = [(image == _rgb(RED)).all(axis=2).sum() for image in (near, distant)]
+    assert red[0] > 100
+    assert red[1] == pytest.approx(red[0], rel=0.1)
+
+
+def test_a_dashed_line_that_passes_far_beside_the_picture_is_not_there() -> None:
+    beside = np.array([[0.0, -1e9, 1e3], [0.0, 1e9, 1e3]])
+    assert (_painted(Polyline("dashes", beside, RED, 2.0, dashed=True)) == _rgb(LIGHT.background)).all()
