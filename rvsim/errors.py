@@ -29,13 +29,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from difflib import get_close_matches
 
+from rvsim.language import tr
+
 
 def did_you_mean(found: str, known: Sequence[str]) -> str:
     """The sentence that offers what would have worked: the nearest of the known names, and all of them."""
     near = get_close_matches(found.lower(), [name.lower() for name in known], n=1)
     originals = {name.lower(): name for name in known}
-    guess = f"Did you mean {originals[near[0]]!r}? " if near else ""
-    return f"{guess}Known: {', '.join(known)}."
+    guess = tr("Did you mean {originals!r}? ", originals=originals[near[0]]) if near else ""
+    return tr("{guess}Known: {known}.", guess=guess, known=", ".join(known))
 
 
 class RvsimError(Exception):
@@ -47,7 +49,9 @@ class ShapeError(RvsimError, ValueError):
 
     def __init__(self, name: str, expected: str, found: tuple[int, ...]) -> None:
         self.name, self.expected, self.found = name, expected, found
-        super().__init__(f"{name} must have the shape {expected}, but has {found}.")
+        super().__init__(
+            tr("{name} must have the shape {expected}, but has {found}.", name=name, expected=expected, found=found)
+        )
 
 
 class RobotDefinitionError(RvsimError, ValueError):
@@ -55,7 +59,7 @@ class RobotDefinitionError(RvsimError, ValueError):
 
     def __init__(self, robot: str, what: str) -> None:
         self.robot, self.what = robot, what
-        super().__init__(f"Robot {robot!r}: {what}")
+        super().__init__(tr("Robot {robot!r}: {what}", robot=robot, what=what))
 
 
 class UnknownRobotError(RvsimError, LookupError):
@@ -63,7 +67,9 @@ class UnknownRobotError(RvsimError, LookupError):
 
     def __init__(self, name: str, known: Sequence[str]) -> None:
         self.name, self.known = name, tuple(known)
-        super().__init__(f"No robot {name!r}, and no such file. {did_you_mean(name, known)}")
+        super().__init__(
+            tr("No robot {name!r}, and no such file. {did_you_mean}", name=name, did_you_mean=did_you_mean(name, known))
+        )
 
 
 class RobotFileError(RvsimError, ValueError):
@@ -80,7 +86,13 @@ class RobotFileError(RvsimError, ValueError):
     def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
         self.path, self.where, self.suggestion = str(path), where, suggestion
         self.found, self.expected = found, expected
-        message = f"{path}: {where}: found {found}, expected {expected}."
+        message = tr(
+            "{path}: {where}: found {found}, expected {expected}.",
+            path=path,
+            where=where,
+            found=found,
+            expected=expected,
+        )
         super().__init__(f"{message} {suggestion}".rstrip())
 
 
@@ -97,9 +109,11 @@ class LetterError(RvsimError, LookupError):
 
     def __init__(self, letter: str) -> None:
         self.letter = letter
-        known = "It knows the Latin letters with and without accents, digits and the usual signs."
+        known = tr("It knows the Latin letters with and without accents, digits and the usual signs.")
         super().__init__(
-            f"The pen cannot write “{letter}”. {known}" if letter else "Type a letter or more to be written."
+            tr("The pen cannot write “{letter}”. {known}", letter=letter, known=known)
+            if letter
+            else tr("Type a letter or more to be written.")
         )
 
 
@@ -109,7 +123,14 @@ class NotFiniteError(RvsimError, ValueError):
     def __init__(self, name: str, index: tuple[int, ...], found: float) -> None:
         self.name, self.index, self.found = name, index, found
         place = ", ".join(map(str, index))
-        super().__init__(f"{name}[{place}] is {found}, but must be a finite number (indices count from 0).")
+        super().__init__(
+            tr(
+                "{name}[{place}] is {found}, but must be a finite number (indices count from 0).",
+                name=name,
+                place=place,
+                found=found,
+            )
+        )
 
 
 class TooManyPointsError(RvsimError, ValueError):
@@ -117,7 +138,15 @@ class TooManyPointsError(RvsimError, ValueError):
 
     def __init__(self, what: str, points: float, most: int, advice: str) -> None:
         self.what, self.points, self.most = what, points, most
-        super().__init__(f"{what} would have about {points:.3g} points, and a path has at most {most}: {advice}.")
+        super().__init__(
+            tr(
+                "{what} would have about {points:.3g} points, and a path has at most {most}: {advice}.",
+                what=what,
+                points=points,
+                most=most,
+                advice=advice,
+            )
+        )
 
 
 class PathFileError(RvsimError, ValueError):
@@ -125,7 +154,15 @@ class PathFileError(RvsimError, ValueError):
 
     def __init__(self, path: object, where: str, found: str, expected: str) -> None:
         self.path, self.where, self.found, self.expected = str(path), where, found, expected
-        super().__init__(f"{path}: {where}: found {found}, expected {expected}.")
+        super().__init__(
+            tr(
+                "{path}: {where}: found {found}, expected {expected}.",
+                path=path,
+                where=where,
+                found=found,
+                expected=expected,
+            )
+        )
 
 
 class ProgramFileError(RvsimError, ValueError):
@@ -133,7 +170,16 @@ class ProgramFileError(RvsimError, ValueError):
 
     def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
         self.path, self.where, self.found, self.expected = str(path), where, found, expected
-        super().__init__(f"{path}: {where}: found {found}, expected {expected}. {suggestion}".rstrip())
+        super().__init__(
+            tr(
+                "{path}: {where}: found {found}, expected {expected}. {suggestion}",
+                path=path,
+                where=where,
+                found=found,
+                expected=expected,
+                suggestion=suggestion,
+            ).rstrip()
+        )
 
 
 class SessionFileError(RvsimError, ValueError):
@@ -142,7 +188,16 @@ class SessionFileError(RvsimError, ValueError):
     def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
         self.path, self.where, self.suggestion = str(path), where, suggestion
         self.found, self.expected = found, expected
-        super().__init__(f"{path}: {where}: found {found}, expected {expected}. {suggestion}".rstrip())
+        super().__init__(
+            tr(
+                "{path}: {where}: found {found}, expected {expected}. {suggestion}",
+                path=path,
+                where=where,
+                found=found,
+                expected=expected,
+                suggestion=suggestion,
+            ).rstrip()
+        )
 
 
 class FileWriteError(RvsimError, OSError):
@@ -150,7 +205,7 @@ class FileWriteError(RvsimError, OSError):
 
     def __init__(self, path: object, reason: str) -> None:
         self.path, self.reason = str(path), reason
-        super().__init__(f"{path} cannot be written: {reason}.")
+        super().__init__(tr("{path} cannot be written: {reason}.", path=path, reason=reason))
 
 
 class ExpressionError(RvsimError, ValueError):
@@ -158,7 +213,13 @@ class ExpressionError(RvsimError, ValueError):
 
     def __init__(self, text: str, reason: str) -> None:
         self.text, self.reason = text, reason
-        super().__init__(f"“{text}” is no number: {reason}. Type a number or an expression like 90/4, 2*30, pi/4 rad.")
+        super().__init__(
+            tr(
+                "“{text}” is no number: {reason}. Type a number or an expression like 90/4, 2*30, pi/4 rad.",
+                text=text,
+                reason=reason,
+            )
+        )
 
 
 class FormulaError(RvsimError, ValueError):
@@ -166,7 +227,15 @@ class FormulaError(RvsimError, ValueError):
 
     def __init__(self, stage: int, coordinate: str, text: str, reason: str) -> None:
         self.stage, self.coordinate, self.text, self.reason = stage, coordinate, text, reason
-        super().__init__(f"Stage {stage}, {coordinate}: “{text}” does not work: {reason}.")
+        super().__init__(
+            tr(
+                "Stage {stage}, {coordinate}: “{text}” does not work: {reason}.",
+                stage=stage,
+                coordinate=coordinate,
+                text=text,
+                reason=reason,
+            )
+        )
 
 
 class PoseError(RvsimError, ValueError):
@@ -174,7 +243,7 @@ class PoseError(RvsimError, ValueError):
 
     def __init__(self, what: str) -> None:
         self.what = what
-        super().__init__(f"This matrix is no pose: {what}")
+        super().__init__(tr("This matrix is no pose: {what}", what=what))
 
 
 class SettingError(RvsimError, ValueError):
@@ -182,7 +251,7 @@ class SettingError(RvsimError, ValueError):
 
     def __init__(self, name: str, found: object, rule: str) -> None:
         self.name, self.found, self.rule = name, found, rule
-        super().__init__(f"{name} must be {rule}, but is {found!r}.")
+        super().__init__(tr("{name} must be {rule}, but is {found!r}.", name=name, rule=rule, found=found))
 
 
 class NoClosedFormError(RvsimError):
@@ -190,7 +259,7 @@ class NoClosedFormError(RvsimError):
 
     def __init__(self, robot: str, why: str) -> None:
         self.robot, self.why = robot, why
-        super().__init__(f"{robot} has no closed form for its inverse kinematics: {why}")
+        super().__init__(tr("{robot} has no closed form for its inverse kinematics: {why}", robot=robot, why=why))
 
 
 class NoMassDataError(RvsimError):
@@ -198,7 +267,12 @@ class NoMassDataError(RvsimError):
 
     def __init__(self, robot: str) -> None:
         self.robot = robot
-        super().__init__(f"{robot} has no mass data: add a mass and a centre of mass for each link to its robot file.")
+        super().__init__(
+            tr(
+                "{robot} has no mass data: add a mass and a centre of mass for each link to its robot file.",
+                robot=robot,
+            )
+        )
 
 
 class DeviceError(RvsimError, OSError):

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rvsim.errors import ExpressionError
+from rvsim.language import tr, tr_later
 
 _NAMES = {"pi": math.pi, "π": math.pi, "e": math.e, "tau": math.tau}
 _FUNCTION_NAMES = ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "radians", "degrees")
@@ -27,12 +28,12 @@ _TYPOGRAPHY = str.maketrans({"\u2212": "-", "\u2013": "-", "×": "*", "·": "*",
 
 # The kind of each unit that may stand behind a number, and how much one of it is in radians, metres, or units.
 _UNITS = {
-    **dict.fromkeys(("°", "deg", "degree", "degrees"), ("an angle", math.pi / 180.0)),
-    **dict.fromkeys(("rad", "radian", "radians"), ("an angle", 1.0)),
+    **dict.fromkeys(("°", "deg", "degree", "degrees"), (tr_later("an angle"), math.pi / 180.0)),
+    **dict.fromkeys(("rad", "radian", "radians"), (tr_later("an angle"), 1.0)),
     "mm": ("a length", 1e-3),
     "cm": ("a length", 1e-2),
     "m": ("a length", 1.0),
-    **dict.fromkeys(("unit", "units"), ("a length without a unit", 1.0)),
+    **dict.fromkeys(("unit", "units"), (tr_later("a length without a unit"), 1.0)),
 }
 _WITH_UNIT = re.compile(rf"(.*?)\s*({'|'.join(sorted(_UNITS, key=len, reverse=True))})", re.DOTALL)
 
@@ -59,7 +60,9 @@ def evaluate_in(unit: str, text: str) -> float:
     kind, size = _UNITS[match[2]]
     wanted, wanted_size = _UNITS.get(unit, ("a plain number", 1.0))
     if kind != wanted:
-        raise ExpressionError(text, f"“{match[2]}” makes it {kind}, and wanted is {wanted}")
+        raise ExpressionError(
+            text, tr("“{match}” makes it {kind}, and wanted is {wanted}", match=match[2], kind=kind, wanted=wanted)
+        )
     return value * (size / wanted_size)
 
 
@@ -84,9 +87,9 @@ def _cleaned(text: str) -> str:
     """As Python writes it: no typographic signs, points for decimal commas; neither empty nor too long."""
     cleaned = text.strip().translate(_TYPOGRAPHY)
     if not cleaned:
-        raise ExpressionError(text, "it is empty")
+        raise ExpressionError(text, tr("it is empty"))
     if len(cleaned) > _LONGEST:
-        raise ExpressionError(text[:20] + "…", f"it is longer than {_LONGEST} characters")
+        raise ExpressionError(text[:20] + "…", tr("it is longer than {longest} characters", longest=_LONGEST))
     return cleaned.replace(",", ".") if _DECIMAL_COMMA.match(cleaned) else cleaned
 
 
@@ -97,19 +100,19 @@ def _evaluated(text: str, cleaned: str) -> float:
     try:
         value = reader.eval("", _one_expression(cleaned))
     except ZeroDivisionError:
-        raise ExpressionError(text, "it divides by zero") from None
+        raise ExpressionError(text, tr("it divides by zero")) from None
     except OverflowError:
-        raise ExpressionError(text, "it is too large") from None
+        raise ExpressionError(text, tr("it is too large")) from None
     except Exception:
         # The library raises SyntaxError, its own InvalidExpression, TypeError, OverflowError, RecursionError …:
         # to the person who typed it they all mean the same.
-        raise ExpressionError(text, "it cannot be read") from None
+        raise ExpressionError(text, tr("it cannot be read")) from None
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ExpressionError(text, "it is not a single number")
+        raise ExpressionError(text, tr("it is not a single number"))
     try:
         return float(value)
     except OverflowError:
-        raise ExpressionError(text, "it is too large") from None
+        raise ExpressionError(text, tr("it is too large")) from None
 
 
 def _one_expression(cleaned: str) -> ast.expr:
@@ -135,10 +138,10 @@ def evaluate_formula(text: str, t: NDArray[np.float64]) -> NDArray[np.float64]:
     try:
         values = np.broadcast_to(np.asarray(value, dtype=np.float64), t.shape)
     except (TypeError, ValueError):
-        raise ExpressionError(text, "it is not a number at each moment") from None
+        raise ExpressionError(text, tr("it is not a number at each moment")) from None
     bad = np.flatnonzero(~np.isfinite(values))
     if len(bad):
-        raise ExpressionError(text, f"it is not finite at t = {t[bad[0]]:g}")
+        raise ExpressionError(text, tr("it is not finite at t = {t:g}", t=t[bad[0]]))
     return np.array(values)
 
 
@@ -151,13 +154,13 @@ def _formula_value(text: str, cleaned: str, t: NDArray[np.float64]) -> Any:
         with np.errstate(all="ignore"):
             return reader.eval("", _one_expression(cleaned))
     except NameNotDefined as problem:
-        raise ExpressionError(text, f"there is no “{problem.name}”, only t, pi, e and tau") from None
+        raise ExpressionError(text, tr("there is no “{name}”, only t, pi, e and tau", name=problem.name)) from None
     except FunctionNotDefined as problem:
-        raise ExpressionError(text, f"there is no function “{problem.func_name}”") from None
+        raise ExpressionError(text, tr("there is no function “{func_name}”", func_name=problem.func_name)) from None
     except ZeroDivisionError:
-        raise ExpressionError(text, "it divides by zero") from None
+        raise ExpressionError(text, tr("it divides by zero")) from None
     except Exception:
-        raise ExpressionError(text, "it cannot be read") from None  # as above: whatever the library raises
+        raise ExpressionError(text, tr("it cannot be read")) from None  # as above: whatever the library raises
 
 
 def _power(base: Any, exponent: Any) -> Any:
@@ -203,5 +206,5 @@ _FORMULA_FUNCTIONS: dict[str, Any] = {
 
 def _finite(text: str, value: float) -> float:
     if not math.isfinite(value):
-        raise ExpressionError(text, "it is not finite")
+        raise ExpressionError(text, tr("it is not finite"))
     return value

@@ -32,6 +32,7 @@ from rvsim.device.calibration.results import Change, Result, gripper_result, joi
 from rvsim.device.calibration.sag import sag_of
 from rvsim.device.calibration.steps import Stage, Step
 from rvsim.errors import RobotDefinitionError, ShapeError
+from rvsim.language import tr
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.servo import LONGEST_US, SHORTEST_US
 
@@ -101,11 +102,11 @@ class CalibrationWizard:
             RobotDefinitionError: the arm has no servos, or no gripper servo where one is asked for.
         """
         if not robot.servos:
-            raise RobotDefinitionError(robot.name, "it has no [[servo]] tables, so there is nothing to calibrate.")
+            raise RobotDefinitionError(robot.name, tr("it has no [[servo]] tables, so there is nothing to calibrate."))
         grip = () if robot.gripper_servo is None else (None,)
         chosen = (*reversed(range(robot.dof)), *grip) if parts is None else tuple(parts)
         if None in chosen and robot.gripper_servo is None:
-            raise RobotDefinitionError(robot.name, "it has no [gripper_servo] to calibrate.")
+            raise RobotDefinitionError(robot.name, tr("it has no [gripper_servo] to calibrate."))
         return cls(robot, chosen, weight, ends, tuple(usual_range(robot, joint) for joint in range(robot.dof)))
 
     # --- where it stands ---------------------------------------------------------------------------------------------
@@ -170,7 +171,7 @@ class CalibrationWizard:
         """
         step = self.step
         if step is None:
-            return Objection("All is marked. Undo leads back.")
+            return Objection(tr("All is marked. Undo leads back."))
         asked = self._asked_for(step, value, posture)
         answered = self._with(Mark(step.joint, step.stage, float(pulse_us), asked))
         wrong = objection_to_pulse(pulse_us) or objection_to_last(self.robot, answered.marks)
@@ -192,13 +193,15 @@ class CalibrationWizard:
         """
         step = self.step
         if step is None or step.value is None or step.joint is None:
-            return Objection("Nothing is to be reached here: mark how far it goes, or skip.")
+            return Objection(tr("Nothing is to be reached here: mark how far it goes, or skip."))
         joint, revolute = step.joint, self.robot.joints[step.joint].revolute
         lower, upper = self.reach[joint]
         little = _STEP if revolute else _STEP_SLIDING
         narrower = (step.value + little, upper) if step.stage == "first pose" else (lower, step.value - little)
         if narrower[1] - narrower[0] < (CLOSE if revolute else CLOSE_SLIDING):
-            return Objection("No two poses are left that are far enough apart. Skip this joint, and look at its horn.")
+            return Objection(
+                tr("No two poses are left that are far enough apart. Skip this joint, and look at its horn.")
+            )
         reach = tuple(narrower if index == joint else pair for index, pair in enumerate(self.reach))
         other = replace(self, reach=reach)
         kept = step.stage == "first pose" or self._plan(joint).values[0] == other._plan(joint).values[0]

@@ -17,6 +17,7 @@ from rvsim.dynamics.newton_euler import STANDARD_GRAVITY, inverse_dynamics
 from rvsim.errors import RobotDefinitionError
 from rvsim.kinematics.chain import Axis, Frame, Vector, Walk, combined, cross
 from rvsim.kinematics.tape import Number, Player, Tape
+from rvsim.language import tr
 from rvsim.robot import LinkMass, Robot
 from rvsim.spatial.arrays import FloatArray
 
@@ -78,7 +79,7 @@ def forward_dynamics(
     needed = inverse_dynamics(robot, q, qd, at_rest, gravity=gravity, payload=payload)
     M = mass_matrix(robot, q, payload=payload)
     if np.any(np.linalg.eigvalsh(M)[..., 0] <= _SINGULAR * np.abs(M).max(axis=(-1, -2))):
-        raise RobotDefinitionError(robot.name, "a joint moves nothing that has inertia: give its link an inertia.")
+        raise RobotDefinitionError(robot.name, tr("a joint moves nothing that has inertia: give its link an inertia."))
     net = joint_values(robot, "torques", torques) - needed
     return np.asarray(np.linalg.solve(M, net[..., None])[..., 0], dtype=np.float64)
 

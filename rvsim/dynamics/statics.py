@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from rvsim.errors import SettingError, ShapeError
 from rvsim.kinematics import forward_kinematics, jacobian
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray
 
@@ -83,7 +84,7 @@ def largest_force(
     """
     unit, limits = _unit_wrench(direction), _per_joint(robot, "torque_limits", torque_limits)
     if not np.all(limits >= 0.0):
-        raise SettingError("torque_limits", float(limits.min()), "0 or more")
+        raise SettingError("torque_limits", float(limits.min()), tr("0 or more"))
     held = _per_joint(robot, "holding", holding)
     slope = joint_torques(robot, q, unit)
     slope = np.where(np.abs(slope) <= _NO_LEVER * np.abs(slope).max(), 0.0, slope)
@@ -112,7 +113,7 @@ def _unit_wrench(direction: ArrayLike) -> FloatArray:
     wrench[: given.size] = given
     length = float(np.linalg.norm(wrench[:3])) or float(np.linalg.norm(wrench[3:]))
     if not 0.0 < length < math.inf:
-        raise SettingError("direction", given.tolist(), "finite and not zero")
+        raise SettingError("direction", given.tolist(), tr("finite and not zero"))
     return wrench / length
 
 

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from rvsim.errors import SettingError
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 WrenchAxes = Literal["base", "tool"]
@@ -39,7 +40,7 @@ class Load:
         if not np.isfinite(self.wrench).all():
             raise SettingError("wrench", self.wrench.tolist(), "finite")
         if not 0.0 <= self.payload < math.inf:
-            raise SettingError("payload", self.payload, "finite and 0 or more")
+            raise SettingError("payload", self.payload, tr("finite and 0 or more"))
 
     def with_wrench(self, first: int, values: FloatArray) -> Load:
         """With other numbers from `first` on: 0 the force, 3 the moment."""

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, Protocol
 
 from rvsim.errors import did_you_mean
 from rvsim.files.place import Place, Quantity, Unit, Units, shown
+from rvsim.language import tr
 
 # What a saved number may differ from the number in memory, as a fraction of it.
 _PRECISION = 1e-15
@@ -50,12 +51,14 @@ class Text:
 
     def read(self, value: Any, place: Place) -> str:
         """The text, without blanks around it."""
-        expected = f"a text of {self.shortest} to {self.longest} characters in quotes"
+        expected = tr(
+            "a text of {shortest} to {longest} characters in quotes", shortest=self.shortest, longest=self.longest
+        )
         if not isinstance(value, str):
             place.refuse(shown(value), expected)
         text = value.strip()
         if not self.shortest <= len(text) <= self.longest:
-            place.refuse(f"a text of {len(text)} characters", expected)
+            place.refuse(tr("a text of {count} characters", count=len(text)), expected)
         return text
 
     def write(self, value: str, units: Units) -> str:
@@ -95,7 +98,7 @@ class Flag:
     def read(self, value: Any, place: Place) -> bool:
         """The truth value."""
         if not isinstance(value, bool):
-            place.refuse(shown(value), "true or false, without quotes")
+            place.refuse(shown(value), tr("true or false, without quotes"))
         return value
 
     def write(self, value: bool, units: Units) -> str:
@@ -115,7 +118,7 @@ class HexColor:
         if self.optional and value == "":
             return ""
         if not isinstance(value, str) or not _HEX_COLOR.fullmatch(value):
-            place.refuse(shown(value), 'a colour "#rrggbb"', 'For instance "#E69F00".')
+            place.refuse(shown(value), tr('a colour "#rrggbb"'), tr('For instance "#E69F00".'))
         return value
 
     def write(self, value: str, units: Units) -> str:
@@ -160,7 +163,7 @@ class Number:
     def _expected(self, place: Place) -> str:
         name = place.units.of(self.quantity).name
         unit = f" [{name}{self.per}]" if name else ""
-        return f"a number from {self.least:.8g} to {self.most:.8g}{unit}"
+        return tr("a number from {least:.8g} to {most:.8g}{unit}", least=self.least, most=self.most, unit=unit)
 
 
 @dataclass(frozen=True)
@@ -172,7 +175,7 @@ class Numbers:
 
     def read(self, value: Any, place: Place) -> tuple[float, ...]:
         """The numbers in SI units."""
-        expected = f"{len(self.names)} numbers [{', '.join(self.names)}]"
+        expected = tr("{count} numbers [{names}]", count=len(self.names), names=", ".join(self.names))
         if not isinstance(value, list) or len(value) != len(self.names):
             place.refuse(shown(value), expected)
         pairs = zip(self.names, value, strict=True)
@@ -195,9 +198,9 @@ class Items:
     def read(self, value: Any, place: Place) -> tuple[Any, ...]:
         """Each item read."""
         if not isinstance(value, list):
-            place.refuse(shown(value), f"a list of {self.one}s")
+            place.refuse(shown(value), tr("a list of {one}s", one=self.one))
         if not self.fewest <= len(value) <= self.most:
-            place.refuse(f"{len(value)} of them", f"{self.fewest} to {self.most} {self.one}s")
+            place.refuse(tr("{count} of them", count=len(value)), f"{self.fewest} to {self.most} {self.one}s")
         return tuple(self.kind.read(item, place.item(f"{self.one} {i}")) for i, item in enumerate(value, 1))
 
     def write(self, value: Any, units: Units) -> str:
@@ -225,7 +228,11 @@ class Table:
     def read(self, value: Any, place: Place) -> Any:
         """The value the table means."""
         if not isinstance(value, dict):
-            place.refuse(shown(value), "a table of keys", f"Its keys: {', '.join(key.name for key in self.keys)}.")
+            place.refuse(
+                shown(value),
+                tr("a table of keys"),
+                tr("Its keys: {keys}.", keys=", ".join(key.name for key in self.keys)),
+            )
         self._refuse_unknown(value, place)
         inside = place.with_units(self.units(value, place.units))
         return self.build({key.name: _read_key(key, value, inside) for key in self.keys}, inside)
@@ -245,18 +252,18 @@ class Table:
         names = [key.name for key in self.keys]
         for name in () if place.newer else table:
             if name not in names:
-                here = place.at(f"key {name[:100]!r}")
-                here.refuse("an unknown key", "one of the known keys", did_you_mean(name[:100], names))
+                here = place.at(tr("key {name!r}", name=name[:100]))
+                here.refuse(tr("an unknown key"), tr("one of the known keys"), did_you_mean(name[:100], names))
 
 
 def _read_key(key: Key, table: dict[str, Any], place: Place) -> Any:
     nested = isinstance(key.kind, Table | Items)
     hint = f"{key.name}: {key.comment}." if key.comment else ""
-    here = place.at(key.name if nested else f"key {key.name!r}", hint)
+    here = place.at(key.name if nested else tr("key {name!r}", name=key.name), hint)
     if key.name in table:
         return key.kind.read(table[key.name], here)
     if key.default is REQUIRED:
-        here.refuse("nothing", f"this {'table' if nested else 'key'}, which is required")
+        here.refuse("nothing", tr("this {value}, which is required", value="table" if nested else "key"))
     return key.default
 
 
@@ -280,7 +287,7 @@ def number_text(value: float, unit: Unit) -> str:
 
 
 def _without_quotes(value: object) -> str:
-    return "Write the number without quotes." if isinstance(value, str) and _is_number(value) else ""
+    return tr("Write the number without quotes.") if isinstance(value, str) and _is_number(value) else ""
 
 
 def _is_number(text: str) -> bool:
@@ -294,4 +301,4 @@ def _refuse_radians(number: float, place: Place) -> None:
     for degrees in (90.0, 180.0):
         if abs(abs(number) - math.radians(degrees)) < 5e-6:
             right = math.copysign(degrees, number)
-            place.refuse(shown(number), "degrees", f"That looks like radians: write {right:g}.")
+            place.refuse(shown(number), "degrees", tr("That looks like radians: write {right:g}.", right=right))

@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple, NoReturn
 
 from rvsim.errors import RobotFileError
 from rvsim.files.toml_source import line_of
+from rvsim.language import tr
 from rvsim.units import (
     degrees_from_radians,
     metres_from_millimetres,
@@ -88,7 +89,7 @@ class Place:
     def refuse(self, found: str, expected: str, suggestion: str = "") -> NoReturn:
         """Raise the `RobotFileError` of this place."""
         line = line_of(self.text, self.steps)
-        where = ", ".join((f"line {line}", *self.steps) if line else self.steps) or "the file"
+        where = ", ".join((tr("line {line}", line=line), *self.steps) if line else self.steps) or tr("the file")
         raise RobotFileError(self.path, where, found, expected, suggestion or self.hint)
 
 
@@ -101,17 +102,17 @@ def shown(value: object) -> str:
     if isinstance(value, int | float):
         return _shortened(_number_text(value))
     if isinstance(value, str):
-        return f"the text {_shortened(repr(value))}"
+        return tr("the text {shortened}", shortened=_shortened(repr(value)))
     if isinstance(value, list):
-        return f"a list of {len(value)}"
-    return "a table" if isinstance(value, dict) else "a date or time"
+        return tr("a list of {count}", count=len(value))
+    return "a table" if isinstance(value, dict) else tr("a date or time")
 
 
 def _number_text(value: float) -> str:
     try:
         return repr(value)
     except ValueError:  # Python refuses to print an integer of thousands of digits
-        return "an integer of thousands of digits"
+        return tr("an integer of thousands of digits")
 
 
 def _shortened(text: str) -> str:

@@ -13,6 +13,7 @@ from rvsim.files.atomic import write_atomically
 from rvsim.files.kinds import Choice, Items, Key, Number, Numbers, Table, Text, number_text
 from rvsim.files.place import Place, Unit, Units, shown
 from rvsim.files.toml_source import read_bytes, tables_of, text_of
+from rvsim.language import tr, tr_later
 from rvsim.motion.moves import DEFAULT_SPEED, JointMove
 from rvsim.robot import Robot
 
@@ -56,8 +57,11 @@ class _Joints:
         """q (n,) [rad, m]."""
         names = self.robot.joint_names
         if not isinstance(value, list) or len(value) != len(names):
-            found = f"{len(value)} numbers" if isinstance(value, list) else shown(value)
-            place.refuse(found, f"{len(names)} numbers, one for each joint of the {self.robot.title}")
+            found = tr("{count} numbers", count=len(value)) if isinstance(value, list) else shown(value)
+            place.refuse(
+                found,
+                tr("{count} numbers, one for each joint of the {title}", count=len(names), title=self.robot.title),
+            )
         return tuple(
             Number("joint", -1e6, 1e6).read(item, place.at(joint.name).with_units(place.units.for_joint(joint.type)))
             for joint, item in zip(self.robot.joints, value, strict=True)
@@ -71,7 +75,9 @@ class _Joints:
 
 
 _SPEED = Key("speed", _Share(1.0), DEFAULT_SPEED)
-_TOOL = Key("tool", Choice(("keep", "turn", "free")), "keep", "how it is turned: kept, turned to rpy, or free")
+_TOOL = Key(
+    "tool", Choice(("keep", "turn", "free")), "keep", tr_later("how it is turned: kept, turned to rpy, or free")
+)
 _RPY = Key("rpy", _ANGLES, _NO_TURN)
 _SECONDS = Number("plain", 0.0, 86_400.0)
 
@@ -79,7 +85,7 @@ _SECONDS = Number("plain", 0.0, 86_400.0)
 def _keys(robot: Robot) -> dict[str, tuple[Key, ...]]:
     """The keys of each kind of move."""
     return {
-        "joint": (Key("joints", _Joints(robot), ()), Key("pose", Text(0, 60), "", "a remembered pose"), _SPEED),
+        "joint": (Key("joints", _Joints(robot), ()), Key("pose", Text(0, 60), "", tr("a remembered pose")), _SPEED),
         "line": (Key("to", _POINT), _TOOL, _RPY, _SPEED),
         "arc": (Key("via", _POINT), Key("to", _POINT), _TOOL, _RPY, _SPEED),
         "wait": (Key("seconds", _SECONDS),),
@@ -95,7 +101,7 @@ def _table(kind: str, keys: tuple[Key, ...]) -> Table:
         arguments = {_FIELDS.get(name, name): value for name, value in values.items() if name != "kind"}
         move = MOVE_KINDS[kind](**arguments)
         if isinstance(move, JointMove) and not (move.q or move.pose):
-            place.refuse("neither joints nor a pose", 'joints = […] or pose = "…"')
+            place.refuse(tr("neither joints nor a pose"), tr('joints = […] or pose = "…"'))
         return move
 
     def parts(move: Move) -> dict[str, Any]:
@@ -133,7 +139,7 @@ class _AnyMove:
 def program_text(program: Program, robot: Robot) -> str:
     """The file of a program for an arm."""
     units, any_move = Units().for_robot(robot.length_unit), _AnyMove(robot)
-    lines = [f"version = {VERSION}", f"robot = {Text().write(robot.name, units)}"]
+    lines = [tr("version = {version}", version=VERSION), tr("robot = {write}", write=Text().write(robot.name, units))]
     for move in program:
         present = any_move.table(kind_of(move)).present(move, units)
         lines += ["", "[[move]]", *(f"{key.name} = {key.kind.write(part, inner)}" for key, part, inner in present)]
@@ -200,7 +206,7 @@ def _read(tables: dict[str, Any], robot: Robot, place: Place) -> Program:
 def _newer_refused(values: dict[str, Any], place: Place) -> Program:
     if values["version"] != VERSION:
         there = place.at("key 'version'")
-        there.refuse(f"{values['version']:g}", f"{VERSION}", "A newer rvsim may have written it.")
+        there.refuse(f"{values['version']:g}", f"{VERSION}", tr("A newer rvsim may have written it."))
     program: Program = values["move"]
     return program
 

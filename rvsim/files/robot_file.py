@@ -14,6 +14,7 @@ from rvsim.files.robot_format import ROBOT
 from rvsim.files.robot_writer import robot_text
 from rvsim.files.toml_source import read_bytes, tables_of, text_of
 from rvsim.files.user_folder import user_robot_path
+from rvsim.language import tr
 from rvsim.resources import resource
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -82,7 +83,12 @@ def save_robot(robot: Robot, path: str | Path) -> None:
     try:
         reread = robot_from_bytes(data, path)
     except RobotFileError as problem:
-        what = f"cannot be saved: {problem.where}: found {problem.found}, expected {problem.expected}."
+        what = tr(
+            "cannot be saved: {where}: found {found}, expected {expected}.",
+            where=problem.where,
+            found=problem.found,
+            expected=problem.expected,
+        )
         raise RobotDefinitionError(robot.name, what) from None
     _check_same(robot, reread)
     _make_if_the_users(Path(path).parent)
@@ -98,7 +104,9 @@ def _check_same(robot: Robot, reread: Robot) -> None:
     # A file says rotations as three angles and inertias as six numbers: a skewed matrix would come back as another.
     for before, after in zip(_matrices(robot), _matrices(reread), strict=True):
         if not np.allclose(before, after, rtol=0.0, atol=1e-9):
-            raise RobotDefinitionError(robot.name, "cannot be saved: a matrix of its base, tools or masses is skewed.")
+            raise RobotDefinitionError(
+                robot.name, tr("cannot be saved: a matrix of its base, tools or masses is skewed.")
+            )
 
 
 def _matrices(robot: Robot) -> list[FloatArray]:

@@ -10,6 +10,7 @@ import numpy as np
 from rvsim.errors import RvsimError, did_you_mean
 from rvsim.files.kinds import Choice, Flag, HexColor, Items, Key, Number, Numbers, Table, Text
 from rvsim.files.place import LENGTH_UNITS, Place, shown
+from rvsim.language import tr, tr_later
 from rvsim.robot import BoxShape, CapsuleShape, Datum, Gripper, GripperServo, Joint, LinkMass, Robot, Servo, Shape, Tool
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.robot import NO_TOOL
@@ -24,8 +25,8 @@ _POINT = Numbers(("x", "y", "z"), _LENGTH)
 _EDGES = Numbers(("x", "y", "z"), Number("length", 1e-6, 1e6))
 _ANGLES = Numbers(("roll", "pitch", "yaw"), _ANGLE)
 _INERTIA = Numbers(("xx", "yy", "zz", "xy", "xz", "yz"), Number("plain", -1e6, 1e6))
-_FINGER = Key("finger", Flag(), False, "true: it moves with the gripper")
-_LOOK_COLOR = Key("color", HexColor(optional=True), "", "when absent: the colour of the joint that moves it")
+_FINGER = Key("finger", Flag(), False, tr_later("true: it moves with the gripper"))
+_LOOK_COLOR = Key("color", HexColor(optional=True), "", tr_later("when absent: the colour of the joint that moves it"))
 _MOST_JOINTS = 32
 # An arm whose lengths add up to less than this [m] was most likely written in metres instead of millimetres.
 _SMALLEST_ARM = 2e-3
@@ -38,7 +39,7 @@ def _datum(number: Number) -> Table:
     return Table(
         keys=(
             Key("value", number),
-            Key("assumed", Flag(), False, "true where no source gives the number"),
+            Key("assumed", Flag(), False, tr("true where no source gives the number")),
             Key("source", Text(longest=500), ""),
         ),
         build=_build_datum,
@@ -48,7 +49,9 @@ def _datum(number: Number) -> Table:
 
 def _build_datum(values: dict[str, Any], place: Place) -> Datum:
     if not values["assumed"] and not values["source"]:
-        place.refuse("a number without origin", 'source = "…" or assumed = true', "Say where the number comes from.")
+        place.refuse(
+            tr("a number without origin"), tr('source = "…" or assumed = true'), tr("Say where the number comes from.")
+        )
     return Datum(**values)
 
 
@@ -56,20 +59,30 @@ def _build_datum(values: dict[str, Any], place: Place) -> Datum:
 
 JOINT = Table(
     keys=(
-        Key("name", Text(1, 40), comment="shown beside its slider"),
-        Key("type", Choice(("revolute", "prismatic")), comment="revolute turns, prismatic slides"),
-        Key("theta", _ANGLE, comment="DH angle at q = 0 [degrees]: theta is in degrees"),
-        Key("d", _LENGTH, comment="DH offset along z at q = 0"),
-        Key("a", _LENGTH, comment="DH length along x"),
-        Key("alpha", _ANGLE, comment="DH twist about x: alpha is in degrees"),
-        Key("dh_assumed", Flag(), False, "true where no source gives this row"),
-        Key("lower", _JOINT_VALUE, -math.inf, "lower limit of q; without limit: leave the key out"),
-        Key("upper", _JOINT_VALUE, math.inf, "upper limit of q; without limit: leave the key out"),
-        Key("limits_assumed", Flag(), False, "true where no source gives these limits"),
-        Key("home", _JOINT_VALUE, 0.0, "q of the Home button, within the limits"),
+        Key("name", Text(1, 40), comment=tr_later("shown beside its slider")),
+        Key("type", Choice(("revolute", "prismatic")), comment=tr_later("revolute turns, prismatic slides")),
+        Key("theta", _ANGLE, comment=tr_later("DH angle at q = 0 [degrees]: theta is in degrees")),
+        Key("d", _LENGTH, comment=tr_later("DH offset along z at q = 0")),
+        Key("a", _LENGTH, comment=tr_later("DH length along x")),
+        Key("alpha", _ANGLE, comment=tr_later("DH twist about x: alpha is in degrees")),
+        Key("dh_assumed", Flag(), False, tr_later("true where no source gives this row")),
+        Key("lower", _JOINT_VALUE, -math.inf, tr_later("lower limit of q; without limit: leave the key out")),
+        Key("upper", _JOINT_VALUE, math.inf, tr_later("upper limit of q; without limit: leave the key out")),
+        Key("limits_assumed", Flag(), False, tr_later("true where no source gives these limits")),
+        Key("home", _JOINT_VALUE, 0.0, tr_later("q of the Home button, within the limits")),
         Key("color", HexColor(), "#0072B2"),
-        Key("max_speed", _datum(Number("joint", 1e-6, 1e6, " per second")), None, "[degrees/s, or length/s]"),
-        Key("max_acceleration", _datum(Number("joint", 1e-6, 1e7, " per second²")), None, "[degrees/s², or length/s²]"),
+        Key(
+            "max_speed",
+            _datum(Number("joint", 1e-6, 1e6, tr_later(" per second"))),
+            None,
+            tr_later("[degrees/s, or length/s]"),
+        ),
+        Key(
+            "max_acceleration",
+            _datum(Number("joint", 1e-6, 1e7, tr_later(" per second²"))),
+            None,
+            tr_later("[degrees/s², or length/s²]"),
+        ),
         Key("max_torque", _datum(Number("plain", 1e-6, 1e6)), None, "[N m, or N]"),
     ),
     build=lambda values, place: _build_joint(values, place),
@@ -82,18 +95,24 @@ def _build_joint(values: dict[str, Any], place: Place) -> Joint:
     joint = Joint(**values)
     unit = place.units.joint
     if not joint.lower < joint.upper:
-        below = f"less than the upper limit {unit.from_si(joint.upper):g}"
-        place.at("key 'lower'").refuse(f"{unit.from_si(joint.lower):g}", below, "Exchange lower and upper?")
+        below = tr("less than the upper limit {from_si:g}", from_si=unit.from_si(joint.upper))
+        place.at("key 'lower'").refuse(f"{unit.from_si(joint.lower):g}", below, tr("Exchange lower and upper?"))
     if not joint.lower <= joint.home <= joint.upper:
-        span = f"a value within the limits {unit.from_si(joint.lower):g} to {unit.from_si(joint.upper):g}"
-        place.at("key 'home'").refuse(f"{unit.from_si(joint.home):g}", span, "Set home to a value the joint can take.")
+        span = tr(
+            "a value within the limits {from_si:g} to {from_si2:g}",
+            from_si=unit.from_si(joint.lower),
+            from_si2=unit.from_si(joint.upper),
+        )
+        place.at("key 'home'").refuse(
+            f"{unit.from_si(joint.home):g}", span, tr("Set home to a value the joint can take.")
+        )
     return joint
 
 
 # --- places: the base and the tools --------------------------------------------------------------------------------
 
-_XYZ = Key("xyz", _POINT, (0.0, 0.0, 0.0), "where its origin is")
-_RPY = Key("rpy", _ANGLES, (0.0, 0.0, 0.0), "roll, pitch, yaw [degrees]: R = Rz(yaw) Ry(pitch) Rx(roll)")
+_XYZ = Key("xyz", _POINT, (0.0, 0.0, 0.0), tr_later("where its origin is"))
+_RPY = Key("rpy", _ANGLES, (0.0, 0.0, 0.0), tr_later("roll, pitch, yaw [degrees]: R = Rz(yaw) Ry(pitch) Rx(roll)"))
 
 BASE = Table(
     keys=(_XYZ, _RPY),
@@ -102,7 +121,12 @@ BASE = Table(
 )
 _AT_ORIGIN = NO_TOOL.T_flange_tool
 TOOL = Table(
-    keys=(Key("name", Text(1, 40)), Key("title", Text(1, 80), comment="shown in the list of tools"), _XYZ, _RPY),
+    keys=(
+        Key("name", Text(1, 40)),
+        Key("title", Text(1, 80), comment=tr_later("shown in the list of tools")),
+        _XYZ,
+        _RPY,
+    ),
     build=lambda values, _: Tool(values["name"], values["title"], _transform(values)),
     parts=lambda tool: {"name": tool.name, "title": tool.title, **_place_parts(tool.T_flange_tool)},
 )
@@ -121,8 +145,8 @@ def _place_parts(T: FloatArray) -> dict[str, Any]:
 GRIPPER = Table(
     keys=(
         Key("color", HexColor(), "#2ca02c"),
-        Key("points", Items("point", _POINT, 2, 200), comment="an open line in the flange frame"),
-        Key("closing", _POINT, (0.0, 0.0, 0.0), "how far a finger moves inwards from open to closed"),
+        Key("points", Items("point", _POINT, 2, 200), comment=tr_later("an open line in the flange frame")),
+        Key("closing", _POINT, (0.0, 0.0, 0.0), tr_later("how far a finger moves inwards from open to closed")),
     ),
     build=lambda values, _: Gripper(values["points"], values["color"], values["closing"]),
     parts=lambda gripper: (
@@ -130,7 +154,9 @@ GRIPPER = Table(
     ),
 )
 _FRAME = Key(
-    "frame", Number("plain", 0, _MOST_JOINTS + 1), comment="0 the base, i the link behind joint i, n + 1 the tool"
+    "frame",
+    Number("plain", 0, _MOST_JOINTS + 1),
+    comment=tr_later("0 the base, i the link behind joint i, n + 1 the tool"),
 )
 CAPSULE = Table(
     keys=(
@@ -168,8 +194,8 @@ def _whole_frame(values: dict[str, Any], place: Place) -> dict[str, Any]:
 MASS = Table(
     keys=(
         Key("mass", Number("plain", 0.0, 1e6), comment="[kg]"),
-        Key("com", _POINT, comment="centre of mass in the link's DH frame"),
-        Key("inertia", _INERTIA, (0.0,) * 6, "xx, yy, zz, xy, xz, yz about the centre of mass [kg m²]"),
+        Key("com", _POINT, comment=tr_later("centre of mass in the link's DH frame")),
+        Key("inertia", _INERTIA, (0.0,) * 6, tr_later("xx, yy, zz, xy, xz, yz about the centre of mass [kg m²]")),
         Key("assumed", Flag(), False),
         Key("source", Text(longest=500), ""),
     ),
@@ -193,17 +219,21 @@ def _tuple(values: FloatArray) -> tuple[float, ...]:
 # --- servos --------------------------------------------------------------------------------------------------------
 
 _DEGREE = math.radians(1.0)
-_CHANNEL = Key("channel", Number("plain", 0, CHANNELS - 1), comment="of the controller, 0 to 31")
+_CHANNEL = Key("channel", Number("plain", 0, CHANNELS - 1), comment=tr_later("of the controller, 0 to 31"))
 _PULSE = Number("plain", SHORTEST_US, LONGEST_US)
 _ORIGIN = (Key("assumed", Flag(), False), Key("source", Text(longest=500), ""))
 SERVO = Table(
     keys=(
         _CHANNEL,
-        Key("sign", Number("plain", -1, 1), comment="1 where a longer pulse means a larger q, -1 where a smaller one"),
-        Key("zero_us", Number("plain", -20_000.0, 20_000.0), comment="the pulse at q = 0 [µs]"),
+        Key(
+            "sign",
+            Number("plain", -1, 1),
+            comment=tr_later("1 where a longer pulse means a larger q, -1 where a smaller one"),
+        ),
+        Key("zero_us", Number("plain", -20_000.0, 20_000.0), comment=tr_later("the pulse at q = 0 [µs]")),
         Key("us_per_degree", Number("plain", 0.1, 1000.0), comment="[µs/degree]"),
-        Key("min_us", _PULSE, SHORTEST_US, "the shortest pulse the servo may get [µs]"),
-        Key("max_us", _PULSE, LONGEST_US, "the longest [µs]"),
+        Key("min_us", _PULSE, SHORTEST_US, tr_later("the shortest pulse the servo may get [µs]")),
+        Key("max_us", _PULSE, LONGEST_US, tr_later("the longest [µs]")),
         *_ORIGIN,
     ),
     build=lambda values, place: _build_servo(values, place),
@@ -225,7 +255,7 @@ def _build_servo(values: dict[str, Any], place: Place) -> Any:
 
 def _whole(value: float, key: str, place: Place) -> int:
     if value != int(value):
-        place.at(f"key {key!r}").refuse(shown(value), "a whole number")
+        place.at(tr("key {key!r}", key=key)).refuse(shown(value), tr("a whole number"))
     return int(value)
 
 
@@ -233,29 +263,41 @@ def _checked(kind: type[Any], values: dict[str, Any], place: Place) -> Any:
     try:
         return kind(**values)
     except RvsimError as problem:
-        place.refuse(str(problem), "values that make a servo")
+        place.refuse(str(problem), tr("values that make a servo"))
 
 
 # --- the whole arm -------------------------------------------------------------------------------------------------
 
 ROBOT = Table(
     keys=(
-        Key("name", Text(0, 60), "", "the short name; when absent: the name of the file"),
-        Key("title", Text(1, 80), comment="the name people use"),
-        Key("family", Text(), "", "the kind of arm"),
-        Key("convention", Choice(("standard", "modified")), comment="DH: standard, or modified (Craig)"),
-        Key("length_unit", Choice(tuple(LENGTH_UNITS)), "millimetre", "unit: for an arm whose lengths have no unit"),
-        Key("source", Text(longest=2000), "", "where the numbers come from"),
-        Key("notes", Text(longest=20_000), "", "what a student should know"),
-        Key("tool_name", Text(0, 40), "", "the tool in use; when absent: the first"),
-        Key("base", BASE, _AT_ORIGIN, "where the first DH frame stands in the base frame"),
-        Key("joint", Items("joint", JOINT, 1, _MOST_JOINTS), comment="one [[joint]] table a joint, base first"),
-        Key("tool", Items("tool", TOOL, 1, 32), (NO_TOOL,), "what can be bolted to the flange"),
-        Key("gripper", GRIPPER, None, "its outline in the stick figure"),
-        Key("look", LOOK, (), "the solid look: capsules and boxes fixed to the links"),
-        Key("mass", Items("mass", MASS, 0, _MOST_JOINTS), (), "one [[mass]] table a link, or none at all"),
-        Key("servo", Items("servo", SERVO, 0, _MOST_JOINTS), (), "one [[servo]] table a joint, for an arm of servos"),
-        Key("gripper_servo", GRIPPER_SERVO, None, "the gripper's servo"),
+        Key("name", Text(0, 60), "", tr_later("the short name; when absent: the name of the file")),
+        Key("title", Text(1, 80), comment=tr_later("the name people use")),
+        Key("family", Text(), "", tr_later("the kind of arm")),
+        Key("convention", Choice(("standard", "modified")), comment=tr_later("DH: standard, or modified (Craig)")),
+        Key(
+            "length_unit",
+            Choice(tuple(LENGTH_UNITS)),
+            "millimetre",
+            tr_later("unit: for an arm whose lengths have no unit"),
+        ),
+        Key("source", Text(longest=2000), "", tr_later("where the numbers come from")),
+        Key("notes", Text(longest=20_000), "", tr_later("what a student should know")),
+        Key("tool_name", Text(0, 40), "", tr_later("the tool in use; when absent: the first")),
+        Key("base", BASE, _AT_ORIGIN, tr_later("where the first DH frame stands in the base frame")),
+        Key(
+            "joint", Items("joint", JOINT, 1, _MOST_JOINTS), comment=tr_later("one [[joint]] table a joint, base first")
+        ),
+        Key("tool", Items("tool", TOOL, 1, 32), (NO_TOOL,), tr_later("what can be bolted to the flange")),
+        Key("gripper", GRIPPER, None, tr_later("its outline in the stick figure")),
+        Key("look", LOOK, (), tr_later("the solid look: capsules and boxes fixed to the links")),
+        Key("mass", Items("mass", MASS, 0, _MOST_JOINTS), (), tr_later("one [[mass]] table a link, or none at all")),
+        Key(
+            "servo",
+            Items("servo", SERVO, 0, _MOST_JOINTS),
+            (),
+            tr_later("one [[servo]] table a joint, for an arm of servos"),
+        ),
+        Key("gripper_servo", GRIPPER_SERVO, None, tr_later("the gripper's servo")),
     ),
     build=lambda values, place: _build_robot(values, place),
     parts=lambda robot: {
@@ -297,7 +339,7 @@ def _build_robot(values: dict[str, Any], place: Place) -> Robot:
     try:
         return Robot(**arguments)
     except RvsimError as problem:
-        place.refuse(str(problem), "values that make an arm")
+        place.refuse(str(problem), tr("values that make an arm"))
 
 
 def _check_names(kind: str, names: list[str], place: Place) -> None:
@@ -305,12 +347,15 @@ def _check_names(kind: str, names: list[str], place: Place) -> None:
         first = names.index(name) + 1
         if first < number:
             there = place.at(f"{kind} {number}").at("key 'name'")
-            there.refuse(f"{name!r} again", f"a name of its own: {kind} {first} is called so already")
+            there.refuse(
+                tr("{name!r} again", name=name),
+                tr("a name of its own: {kind} {first} is called so already", kind=kind, first=first),
+            )
 
 
 def _check_tool_name(name: str, names: list[str], place: Place) -> None:
     if name and name not in names:
-        place.at("key 'tool_name'").refuse(repr(name), "the name of a [[tool]]", did_you_mean(name, names))
+        place.at("key 'tool_name'").refuse(repr(name), tr("the name of a [[tool]]"), did_you_mean(name, names))
 
 
 def _check_frames(shapes: tuple[Shape, ...], dof: int, place: Place) -> None:
@@ -319,25 +364,34 @@ def _check_frames(shapes: tuple[Shape, ...], dof: int, place: Place) -> None:
         counts[type(shape)] += 1
         there = place.at("look").at(f"{'box' if isinstance(shape, BoxShape) else 'capsule'} {counts[type(shape)]}")
         if shape.frame > dof + 1:
-            key = there.at("key 'frame'", f"frame: {_FRAME.comment}.")
-            key.refuse(str(shape.frame), f"0 to {dof + 1} for an arm of {dof} joints")
+            key = there.at("key 'frame'", tr("frame: {comment}.", comment=_FRAME.comment))
+            key.refuse(str(shape.frame), tr("0 to {dof} for an arm of {dof2} joints", dof=dof + 1, dof2=dof))
         if shape.finger and shape.frame != dof:
-            key = there.at("key 'finger'", f"finger: {_FINGER.comment}.")
-            key.refuse(f"a finger of frame {shape.frame}", f"frame {dof}, the flange, which carries the gripper")
+            key = there.at("key 'finger'", tr("finger: {comment}.", comment=_FINGER.comment))
+            key.refuse(
+                tr("a finger of frame {frame}", frame=shape.frame),
+                tr("frame {dof}, the flange, which carries the gripper", dof=dof),
+            )
 
 
 def _check_masses(masses: int, dof: int, place: Place) -> None:
     if masses not in (0, dof):
-        place.at("mass").refuse(f"{masses} of them", f"none, or one for each of the {dof} links")
+        place.at("mass").refuse(
+            tr("{masses} of them", masses=masses), tr("none, or one for each of the {dof} links", dof=dof)
+        )
 
 
 def _check_servos(servos: int, joints: int, place: Place) -> None:
     if servos not in (0, joints):
-        place.at("servo").refuse(f"{servos} of them", f"none, or one for each of the {joints} joints")
+        place.at("servo").refuse(
+            tr("{servos} of them", servos=servos), tr("none, or one for each of the {joints} joints", joints=joints)
+        )
 
 
 def _check_size(joints: tuple[Joint, ...], place: Place) -> None:
     total = sum(abs(joint.d) + abs(joint.a) for joint in joints)
     if 0.0 < total < _SMALLEST_ARM:
-        found = f"lengths d and a that add up to {place.units.length.from_si(total):g}"
-        place.refuse(found, "lengths in millimetres", 'Metres? 0.15 m is 150. No unit at all? length_unit = "unit".')
+        found = tr("lengths d and a that add up to {from_si:g}", from_si=place.units.length.from_si(total))
+        place.refuse(
+            found, tr("lengths in millimetres"), tr('Metres? 0.15 m is 150. No unit at all? length_unit = "unit".')
+        )

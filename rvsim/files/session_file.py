@@ -19,6 +19,7 @@ from rvsim.files.session.json_text import LARGEST, json_text, json_value
 from rvsim.files.session.migrations import MIGRATIONS, VERSION, Migration, migrated, version_of
 from rvsim.files.session.place import SessionPlace
 from rvsim.files.session.tables import FORMAT, HEAD, SESSION, head
+from rvsim.language import tr, tr_later
 
 ENDING = ".rvsim"
 
@@ -31,7 +32,7 @@ class OpenedSession(NamedTuple):
     read_only: bool = False
 
 
-def session_bytes(state: SessionState, path: object = "this session") -> bytes:
+def session_bytes(state: SessionState, path: object = tr_later("this session")) -> bytes:
     """The file of a session; it can be read again, or this raises. `path` is for the message.
 
     Raises:
@@ -41,7 +42,9 @@ def session_bytes(state: SessionState, path: object = "this session") -> bytes:
     SESSION.read(plain, SessionPlace(str(path)))
     data = json_text({**head(VERSION), **plain}).encode()
     if len(data) > LARGEST:
-        raise SessionFileError(path, "the file", f"{len(data)} bytes", f"at most {LARGEST} bytes")
+        raise SessionFileError(
+            path, tr("the file"), tr("{count} bytes", count=len(data)), tr("at most {largest} bytes", largest=LARGEST)
+        )
     return data
 
 
@@ -60,7 +63,7 @@ def session_of(
     place = SessionPlace(str(path))
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         found = shown(document.get("format")) if isinstance(document, dict) else shown(document)
-        place.at("format").refuse(found, f"{FORMAT!r}", "Robot files (.toml) are opened as such.")
+        place.at("format").refuse(found, f"{FORMAT!r}", tr("Robot files (.toml) are opened as such."))
     version = version_of(document, place)
     newer = version > current
     plain = migrated(document, place, migrations, current)
@@ -72,12 +75,20 @@ def session_of(
 def _notice(path: object, version: int, current: int) -> str:
     name = Path(str(path)).name
     if version > current:
-        return (
-            f"{name} was written by a newer rvsim (version {version} of the format, {current} is known here): what "
-            "is unknown is left out, and the file is not replaced. Save what you change under another name."
+        return tr(
+            "{name} was written by a newer rvsim (version {version} of the format, {current} is known here): what "
+            "is unknown is left out, and the file is not replaced. Save what you change under another name.",
+            name=name,
+            version=version,
+            current=current,
         )
     if version < current:
-        return f"{name} is of an older rvsim (version {version} of the format); saved, it will be of version {current}."
+        return tr(
+            "{name} is of an older rvsim (version {version} of the format); saved, it will be of version {current}.",
+            name=name,
+            version=version,
+            current=current,
+        )
     return ""
 
 
@@ -112,14 +123,14 @@ def save_session(state: SessionState, path: str | Path, *, durable: bool = True)
 def _bytes_of(path: Path) -> bytes:
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            found = "a folder" if path.is_dir() else "something that is no file"
-            raise SessionFileError(path, "the file", found, f"a session file ({ENDING})")
+            found = "a folder" if path.is_dir() else tr("something that is no file")
+            raise SessionFileError(path, tr("the file"), found, tr("a session file ({ending})", ending=ENDING))
         with path.open("rb") as file:
             return file.read(LARGEST + 1)
     except (OSError, ValueError) as problem:
         if isinstance(problem, SessionFileError):
             raise
-        raise SessionFileError(path, "the file", _reason(problem), "a file that can be read") from None
+        raise SessionFileError(path, tr("the file"), _reason(problem), tr("a file that can be read")) from None
 
 
 def _reason(problem: Exception) -> str:

@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from rvsim.errors import RobotFileError
+from rvsim.language import tr, tr_later
 
 LARGEST = 256 * 1024  # [bytes]; the largest of our own has a twentieth of it
-_AS_UTF8 = "Save it as UTF-8 text."
+_AS_UTF8 = tr_later("Save it as UTF-8 text.")
 _NOWHERE = r"(?!)"
 
 
@@ -24,13 +25,13 @@ def read_bytes(path: Path) -> bytes:
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            found = "a folder" if path.is_dir() else "something that is no file"
-            raise RobotFileError(path, "the file", found, "a robot file (.toml)")
+            found = "a folder" if path.is_dir() else tr("something that is no file")
+            raise RobotFileError(path, tr("the file"), found, tr("a robot file (.toml)"))
         with path.open("rb") as file:
             return file.read(LARGEST + 1)
     except OSError as problem:
         reason = (problem.strerror or str(problem)).lower()
-        raise RobotFileError(path, "the file", reason, "a file that can be read") from None
+        raise RobotFileError(path, tr("the file"), reason, tr("a file that can be read")) from None
 
 
 def text_of(data: bytes, path: object) -> str:
@@ -40,15 +41,17 @@ def text_of(data: bytes, path: object) -> str:
         RobotFileError: they are too many or no UTF-8.
     """
     if len(data) > LARGEST:
-        raise RobotFileError(path, "the file", "a large file", f"at most {LARGEST // 1024} kB of text")
+        raise RobotFileError(
+            path, tr("the file"), tr("a large file"), tr("at most {largest} kB of text", largest=LARGEST // 1024)
+        )
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise RobotFileError(path, "the file", "UTF-16 text", "UTF-8 text", _AS_UTF8)
+        raise RobotFileError(path, tr("the file"), "UTF-16 text", "UTF-8 text", _AS_UTF8)
     try:
         return data.decode("utf-8-sig")  # some editors put a mark before the first letter
     except UnicodeDecodeError as problem:
         line = data.count(b"\n", 0, problem.start) + 1
-        found = f"the byte 0x{data[problem.start]:02x}"
-        raise RobotFileError(path, f"line {line}", found, "UTF-8 text", _AS_UTF8) from None
+        found = tr("the byte 0x{data:02x}", data=data[problem.start])
+        raise RobotFileError(path, tr("line {line}", line=line), found, "UTF-8 text", _AS_UTF8) from None
 
 
 def tables_of(text: str, path: object) -> dict[str, Any]:
@@ -60,9 +63,9 @@ def tables_of(text: str, path: object) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise RobotFileError(path, "the file", "lists nested too deeply", "tables of plain keys") from None
+        raise RobotFileError(path, tr("the file"), tr("lists nested too deeply"), tr("tables of plain keys")) from None
     except ValueError as problem:  # a TOMLDecodeError, or Python's refusal of an integer of thousands of digits
-        raise RobotFileError(path, *_syntax(str(problem)), "Texts stand in quotes, lists in brackets.") from None
+        raise RobotFileError(path, *_syntax(str(problem)), tr("Texts stand in quotes, lists in brackets.")) from None
 
 
 def line_of(text: str, steps: Sequence[str]) -> int:
@@ -98,5 +101,5 @@ def _syntax(message: str) -> tuple[str, str, str]:
     # tomllib says "Invalid value (at line 3, column 9)"; Python alone speaks of the digits.
     what, _, place = message.partition(" (at ")
     if "digits" in what:
-        what = "an integer has thousands of digits"
-    return place.rstrip(")") or "the file", f"a mistake ({what[:1].lower() + what[1:]})", "TOML"
+        what = tr("an integer has thousands of digits")
+    return place.rstrip(")") or tr("the file"), tr("a mistake ({lower})", lower=what[:1].lower() + what[1:]), "TOML"

@@ -13,13 +13,14 @@ from rvsim.gui.diagnostics import diagnostics
 from rvsim.gui.help.show import show_help
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
+from rvsim.language import tr, tr_later
 from rvsim.resources import resource
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
 
 _WIDTH, _LINES, _ICON = 480, 12, 48
-_COPIED = "Copied. Put it into a mail or a report of a fault."
+_COPIED = tr_later("Copied. Put it into a mail or a report of a fault.")
 
 
 class AboutDialog(QDialog):
@@ -28,7 +29,7 @@ class AboutDialog(QDialog):
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self.setObjectName("about_dialog")
-        self.setWindowTitle("About rvsim")
+        self.setWindowTitle(tr("About rvsim"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._window = window
         self._make_facts()
@@ -57,8 +58,11 @@ class AboutDialog(QDialog):
 
     def _words(self) -> QLabel:
         words = QLabel(
-            "See, move, compute and understand a robot arm. Free software under the MIT licence; it comes without any "
-            "warranty. The window is made with Qt for Python, which is under the LGPL, version 3."
+            tr(
+                "See, move, compute and understand a robot arm. Free software under the MIT licence; it comes without "
+                "any "
+                "warranty. The window is made with Qt for Python, which is under the LGPL, version 3."
+            )
         )
         words.setWordWrap(True)
         return words
@@ -66,7 +70,7 @@ class AboutDialog(QDialog):
     def _make_facts(self) -> None:
         self.facts = QPlainTextEdit(diagnostics(self._window.scene_view.renderer.description))
         self.facts.setObjectName("about_facts")
-        self.facts.setAccessibleName("Versions and diagnostics")
+        self.facts.setAccessibleName(tr("Versions and diagnostics"))
         self.facts.setReadOnly(True)
         font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
         font.setPointSizeF(QFont(self.font()).pointSizeF() * 0.95)
@@ -75,10 +79,12 @@ class AboutDialog(QDialog):
 
     def _foot(self) -> QHBoxLayout:
         row = QHBoxLayout()
-        row.addWidget(button("about_copy", "Copy diagnostics", "All that stands above", self.copy))
-        row.addWidget(button("about_licences", "Licences", "That of rvsim, and those of its parts", self._licences))
+        row.addWidget(button("about_copy", tr("Copy diagnostics"), tr("All that stands above"), self.copy))
+        row.addWidget(
+            button("about_licences", tr("Licences"), tr("That of rvsim, and those of its parts"), self._licences)
+        )
         row.addStretch(1)
-        row.addWidget(button("about_close", "Close", "Esc", self.close, primary=True))
+        row.addWidget(button("about_close", tr("Close"), "Esc", self.close, primary=True))
         return row
 
     def copy(self) -> None:

@@ -39,12 +39,17 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, form, select
 from rvsim.gui.workers import LatestWorker
 from rvsim.kinematics import forward_kinematics
+from rvsim.language import tr, tr_later
 from rvsim.motion import Trajectory
 from rvsim.playback.player import Playable
 from rvsim.scene.build import SceneOptions
 from rvsim.scene.paths import path_items
 
-_FORMATS = {".gif": "GIF: plays everywhere", ".png": "APNG: every colour, larger", ".webp": "WebP: smallest"}
+_FORMATS = {
+    ".gif": tr_later("GIF: plays everywhere"),
+    ".png": tr_later("APNG: every colour, larger"),
+    ".webp": tr_later("WebP: smallest"),
+}
 _SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 _PREVIEW = 320  # [pixels] wide
 _TRAIL = 600  # places
@@ -58,7 +63,7 @@ class AnimationDialog(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setObjectName("animation_dialog")
-        self.setWindowTitle("Export animation")
+        self.setWindowTitle(tr("Export animation"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._preferences, self._stage = session, preferences, stage
         self._trajectory: Playable | None = motion.player.trajectory
@@ -76,25 +81,25 @@ class AnimationDialog(QDialog):
     # --- assembly --------------------------------------------------------------------------------------------------
 
     def _make_choices(self) -> None:
-        self.size_box = combo("animation_size", "Size of the picture")
+        self.size_box = combo("animation_size", tr("Size of the picture"))
         for width, height in SIZES:
             self.size_box.addItem(f"{width} × {height}", (width, height))
-        self.rate_box = combo("animation_rate", "Frames a second")
+        self.rate_box = combo("animation_rate", tr("Frames a second"))
         for rate in RATES:
-            self.rate_box.addItem(f"{rate} frames a second", rate)
-        self.speed_box = combo("animation_speed", "How fast the motion runs")
+            self.rate_box.addItem(tr("{rate} frames a second", rate=rate), rate)
+        self.speed_box = combo("animation_speed", tr("How fast the motion runs"))
         for speed in _SPEEDS:
             self.speed_box.addItem(f"{speed:g}×", speed)
-        self.format_box = combo("animation_format", "Format of the file", _FORMATS)
-        self.loop = QCheckBox("Again and again")
+        self.format_box = combo("animation_format", tr("Format of the file"), _FORMATS)
+        self.loop = QCheckBox(tr("Again and again"))
         self.loop.setObjectName("animation_loop")
         self.loop.setChecked(True)
         self.size_box.setCurrentIndex(1)
         select(self.rate_box, 15)
         select(self.speed_box, 1.0)
-        self.file = QLineEdit(str(Path.home() / f"{self._session.robot.name}.gif"))
+        self.file = QLineEdit(str(Path.home() / tr("{name}.gif", name=self._session.robot.name)))
         self.file.setObjectName("animation_file")
-        self.file.setAccessibleName("File")
+        self.file.setAccessibleName(tr("File"))
         for box in (self.size_box, self.rate_box, self.speed_box):
             box.currentIndexChanged.connect(lambda _: self._show_summary())
         self.size_box.currentIndexChanged.connect(lambda _: self._show_still())
@@ -111,16 +116,16 @@ class AnimationDialog(QDialog):
         self.progress.setRange(0, 1000)
         self.progress.setVisible(False)
         rows = form()
-        rows.addRow("Size", self.size_box)
-        rows.addRow("Rate", self.rate_box)
-        rows.addRow("Speed", self.speed_box)
-        rows.addRow("Format", self.format_box)
+        rows.addRow(tr("Size"), self.size_box)
+        rows.addRow(tr("Rate"), self.rate_box)
+        rows.addRow(tr("Speed"), self.speed_box)
+        rows.addRow(tr("Format"), self.format_box)
         rows.addRow("", self.loop)
-        rows.addRow("File", self._file_row())
+        rows.addRow(tr("File"), self._file_row())
         self.start_button = button(
-            "animation_start", "Export animation", "Paint and write it", self.start, primary=True
+            "animation_start", tr("Export animation"), tr("Paint and write it"), self.start, primary=True
         )
-        self.cancel_button = button("animation_cancel", "Close", "Give up, or close", self.give_up)
+        self.cancel_button = button("animation_cancel", tr("Close"), tr("Give up, or close"), self.give_up)
         buttons = QHBoxLayout()
         buttons.addWidget(self.progress, 1)
         buttons.addStretch(0)
@@ -137,11 +142,11 @@ class AnimationDialog(QDialog):
     def _file_row(self) -> QHBoxLayout:
         row = QHBoxLayout()
         row.addWidget(self.file, 1)
-        row.addWidget(button("animation_browse", "…", "Choose the file", self._browse))
+        row.addWidget(button("animation_browse", "…", tr("Choose the file"), self._browse))
         return row
 
     def _browse(self) -> None:
-        chosen, _ = QFileDialog.getSaveFileName(self, "Export animation", self.file.text(), f"*{self.ending}")
+        chosen, _ = QFileDialog.getSaveFileName(self, tr("Export animation"), self.file.text(), f"*{self.ending}")
         if chosen:
             path = Path(chosen)
             self.file.setText(str(path if path.suffix else path.with_suffix(self.ending)))
@@ -175,13 +180,15 @@ class AnimationDialog(QDialog):
         settings, duration = self.settings, self._trajectory.duration
         size = settings.estimated_bytes(duration, self.ending) / 1e6
         frames, seconds = settings.frames(duration), settings.seconds(duration)
-        self.summary.setText(f"{frames} frames, {seconds:.1f} s, about {size:.1f} MB.")
+        self.summary.setText(
+            tr("{frames} frames, {seconds:.1f} s, about {size:.1f} MB.", frames=frames, seconds=seconds, size=size)
+        )
 
     def _problem(self) -> str:
         if self._trajectory is None:
-            return "No motion yet: track a line or run a program first."
+            return tr("No motion yet: track a line or run a program first.")
         if self.settings.too_many(self._trajectory.duration):
-            return "Too many frames of that size: choose a smaller one, fewer frames a second, or a higher speed."
+            return tr("Too many frames of that size: choose a smaller one, fewer frames a second, or a higher speed.")
         return ""
 
     # --- at work ---------------------------------------------------------------------------------------------------
@@ -206,7 +213,7 @@ class AnimationDialog(QDialog):
             super().reject()
             return
         self._end()
-        self.summary.setText("Given up. Nothing was written.")
+        self.summary.setText(tr("Given up. Nothing was written."))
 
     def _paint_next(self) -> None:
         animation = self._animation
@@ -228,7 +235,7 @@ class AnimationDialog(QDialog):
         except FileWriteError as problem:
             sentence, level = str(problem), "error"
         else:
-            sentence, level = f"Saved {path}: {len(data) / 1e6:.2f} MB.", "info"
+            sentence, level = tr("Saved {path}: {count:.2f} MB.", path=path, count=len(data) / 1000000.0), "info"
         self._end()
         self.summary.setText(sentence)
         set_role(self.summary, role="", level="" if level == "info" else level)
@@ -244,7 +251,7 @@ class AnimationDialog(QDialog):
         for box in (self.size_box, self.rate_box, self.speed_box, self.format_box, self.loop, self.file):
             box.setEnabled(not busy)
         self.start_button.setEnabled(not busy)
-        self.cancel_button.setText("Cancel" if busy else "Close")
+        self.cancel_button.setText(tr("Cancel") if busy else tr("Close"))
         self.progress.setFormat("%p %")
         self.progress.setVisible(busy)
         self.progress.setValue(0)

@@ -19,6 +19,7 @@ from rvsim.errors import RvsimError
 from rvsim.files import user_folder
 from rvsim.files.atomic import write_atomically
 from rvsim.files.session_file import ENDING
+from rvsim.language import tr
 
 ENVIRONMENT_VARIABLE = "RVSIM_AUTOSAVE_SECONDS"
 _SECONDS, _SHORTEST, _LONGEST = 5.0, 0.02, 10.0
@@ -109,7 +110,7 @@ class Autosave(QObject):
         except (OSError, RvsimError) as problem:
             reason = getattr(problem, "strerror", None) or str(problem)
             if not self._failing:
-                self.failed.emit(f"No safety copy can be made ({reason}): save your work yourself.")
+                self.failed.emit(tr("No safety copy can be made ({reason}): save your work yourself.", reason=reason))
             self._failing = True
             return
         self._mark, self._failing = wanted.mark, False
@@ -122,7 +123,7 @@ class Autosave(QObject):
             file = folder / f"{os.getpid()}-{secrets.token_hex(4)}{ENDING}"
             lock = _lock_of(file)
             if not lock.tryLock(0):
-                raise OSError(f"{folder} cannot be locked")
+                raise OSError(tr("{folder} cannot be locked", folder=folder))
             self._file, self._lock = file, lock
         return self._file
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_number, format_quantity, joint_kind
 from rvsim.kinematics import Branch, jacobian
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -33,18 +34,20 @@ def _broken(robot: Robot, joint: int, value: float, preferences: Preferences) ->
     lower, upper = robot.limits[joint]
     kind = joint_kind(robot, joint)
     texts = [format_quantity(number, kind, preferences) for number in (value, lower if value < lower else upper)]
-    return f"{robot.joint_names[joint]} {texts[0]} stops at {texts[1]}"
+    return tr(
+        "{joint_names} {texts} stops at {texts2}", joint_names=robot.joint_names[joint], texts=texts[0], texts2=texts[1]
+    )
 
 
 def short_limit_words(robot: Robot, branch: Branch, preferences: Preferences) -> str:
     """The limits that are broken, short: "elbow stops at −110.0°", or of several joints "shoulder, elbow stop"."""
     broken = broken_joints(branch).tolist() or [int(np.argmin(branch.limit_margin))]
     if len(broken) > 1:
-        return f"{', '.join(robot.joint_names[joint] for joint in broken)} stop"
+        return tr("{broken} stop", broken=", ".join(robot.joint_names[joint] for joint in broken))
     (joint,) = broken
     lower, upper = robot.limits[joint]
     stop = format_quantity(lower if branch.q[joint] < lower else upper, joint_kind(robot, joint), preferences)
-    return f"{robot.joint_names[joint]} stops at {stop}"
+    return tr("{joint_names} stops at {stop}", joint_names=robot.joint_names[joint], stop=stop)
 
 
 def broken_joints(branch: Branch) -> NDArray[np.intp]:
@@ -57,9 +60,11 @@ def margin_words(robot: Robot, branch: Branch, preferences: Preferences) -> str:
     joint = int(np.argmin(branch.limit_margin))
     margin = float(branch.limit_margin[joint])
     if np.isinf(margin):
-        return "no joint has a limit"
-    return (
-        f"{robot.joint_names[joint]} {format_quantity(margin, joint_kind(robot, joint), preferences)} before its limit"
+        return tr("no joint has a limit")
+    return tr(
+        "{joint_names} {format_quantity} before its limit",
+        joint_names=robot.joint_names[joint],
+        format_quantity=format_quantity(margin, joint_kind(robot, joint), preferences),
     )
 
 
@@ -78,11 +83,15 @@ def singular_words(robot: Robot, q: FloatArray) -> str:
     shift, turn = left[:3], left[3:]
     # A motion is lost as far as it lies along this one: a shift alone, a turn alone, or only one without the other.
     if np.linalg.norm(shift) >= np.linalg.norm(turn):
-        lost = f"move along {_direction(shift)}" + " without turning" * bool(np.linalg.norm(turn) > _BOTH)
+        lost = tr("move along {direction}", direction=_direction(shift)) + tr(" without turning") * bool(
+            np.linalg.norm(turn) > _BOTH
+        )
     else:
-        lost = f"turn about {_direction(turn)}" + " in place" * bool(np.linalg.norm(shift) > _BOTH)
-    where, how = ("Singular", "cannot") if least < _SINGULAR else ("Near a singularity", "can hardly")
-    return f"{where}: the tool {how} {lost}."
+        lost = tr("turn about {direction}", direction=_direction(turn)) + tr(" in place") * bool(
+            np.linalg.norm(shift) > _BOTH
+        )
+    where, how = (tr("Singular"), "cannot") if least < _SINGULAR else (tr("Near a singularity"), tr("can hardly"))
+    return tr("{where}: the tool {how} {lost}.", where=where, how=how, lost=lost)
 
 
 def _least_motion(robot: Robot, q: FloatArray) -> tuple[FloatArray, float, FloatArray]:

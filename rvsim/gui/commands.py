@@ -25,6 +25,7 @@ from rvsim.gui.text_dialog import TextDialog
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.tables import tracking_csv
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
+from rvsim.language import tr
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -128,7 +129,7 @@ class Commands(QObject):
             "track_trajectory": window.tracker.track_trajectory,
             "clear_path": window.tracker.clear,
             "play": motion.toggle,
-            "stop": lambda: window.emergency_stop.stop("Esc was pressed."),
+            "stop": lambda: window.emergency_stop.stop(tr("Esc was pressed.")),
             "step_forward": lambda: motion.step(0.05),
             "step_back": lambda: motion.step(-0.05),
             **self._help_deeds(),
@@ -235,7 +236,7 @@ class Commands(QObject):
         """Take the arm of a robot file, or say what is wrong with it."""
         robot, sentence = opened(file)
         if robot is None:
-            self._fail("This robot file cannot be used.", sentence)
+            self._fail(tr("This robot file cannot be used."), sentence)
             return
         self._session.use_robot(robot)
         self._session.say(sentence)
@@ -266,12 +267,12 @@ class Commands(QObject):
         if done:
             self._session.say(sentence)
         else:
-            self._fail("Nothing was written.", sentence)
+            self._fail(tr("Nothing was written."), sentence)
 
     def save_picture(self) -> None:
         """Ask for a place and save the scene there."""
-        start = str(Path.home() / f"{self._session.robot.name}.png")
-        file, _ = QFileDialog.getSaveFileName(self._window, "Save picture", start, "Pictures (*.png *.jpg)")
+        start = str(Path.home() / tr("{name}.png", name=self._session.robot.name))
+        file, _ = QFileDialog.getSaveFileName(self._window, tr("Save picture"), start, tr("Pictures (*.png *.jpg)"))
         if file:
             self._write(Path(file), lambda path: save_image(self._window.scene_view.image(), path))
 
@@ -280,8 +281,8 @@ class Commands(QObject):
         tracking = self._session.tracking
         if tracking is None:
             return
-        start = str(Path.home() / f"{tracking.robot.name}-{tracking.path.name}.csv")
-        file, _ = QFileDialog.getSaveFileName(self._window, "Save path as CSV", start, "Tables (*.csv)")
+        start = str(Path.home() / tr("{name}-{name2}.csv", name=tracking.robot.name, name2=tracking.path.name))
+        file, _ = QFileDialog.getSaveFileName(self._window, tr("Save path as CSV"), start, tr("Tables (*.csv)"))
         if file:
             self._write(Path(file), lambda path: write_atomically(path, tracking_csv(tracking).encode()))
 
@@ -289,9 +290,9 @@ class Commands(QObject):
         try:
             write(file)
         except (RvsimError, OSError) as problem:
-            self._fail("Nothing was written.", str(problem))
+            self._fail(tr("Nothing was written."), str(problem))
             return
-        self._session.say(f"Saved {file}.")
+        self._session.say(tr("Saved {file}.", file=file))
 
     def _fail(self, what: str, problem: str) -> None:
         tell_problem(self._window, self._session, what, problem)
@@ -312,7 +313,7 @@ class Commands(QObject):
         else:
             text = text_of(np.asarray(T))
         QGuiApplication.clipboard().setText(text)
-        self._session.say("Pose copied.")
+        self._session.say(tr("Pose copied."))
 
     def show_shortcuts(self) -> None:
         """All shortcuts in one table."""
@@ -323,7 +324,7 @@ class Commands(QObject):
         extra = (
             "<p>In a value box: ↑ ↓ step 1, with Shift 10, with Ctrl 0.1. In the scene: arrows turn, + and − zoom.</p>"
         )
-        self._tell("Keyboard shortcuts", f"<table>{rows}</table>{extra}")
+        self._tell(tr("Keyboard shortcuts"), f"<table>{rows}</table>{extra}")
 
     def show_help(self, page: str = "") -> None:
         """A page of the help; "" for that of the panel in which the focus is."""

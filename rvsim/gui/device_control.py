@@ -20,6 +20,7 @@ from rvsim.gui.servo_limits import ServoLimits, narrowing_sentence
 from rvsim.gui.session import Session
 from rvsim.lab.before_running import objections, what_is_touched
 from rvsim.lab.sentences import Units
+from rvsim.language import tr, tr_later
 from rvsim.motion import joint_move
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.arrays import FloatArray
@@ -35,13 +36,13 @@ if TYPE_CHECKING:
 
 _POLL_MS = 33
 _AT_START = 2e-3  # [rad]: a motion begins only where the arm is
-_VIRTUAL = "Virtual arm"
-_CLOSED = "The window was closed."
+_VIRTUAL = tr_later("Virtual arm")
+_CLOSED = tr_later("The window was closed.")
 _RECOVERED = {
-    "stopped": "The stop is reset. Nothing has moved by that; Run begins a motion from its start.",
-    "lost": "Connecting again …",
+    "stopped": tr_later("The stop is reset. Nothing has moved by that; Run begins a motion from its start."),
+    "lost": tr_later("Connecting again …"),
 }
-_NARROW = "Limits of arm and servos"
+_NARROW = tr_later("Limits of arm and servos")
 
 
 class DeviceControl(QObject):
@@ -132,8 +133,11 @@ class DeviceControl(QObject):
         robot = self._session.robot
         if not robot.servos:
             self._session.say(
-                f"The {robot.title} has no servos in its robot file. Take the Lynxmotion AL5B, or an arm of yours "
-                "with [[servo]] tables.",
+                tr(
+                    "The {title} has no servos in its robot file. Take the Lynxmotion AL5B, or an arm of yours "
+                    "with [[servo]] tables.",
+                    title=robot.title,
+                ),
                 "error",
             )
             return
@@ -209,7 +213,7 @@ class DeviceControl(QObject):
     def wake_all(self) -> None:
         """All channels at once: only for an arm that cannot be hurt."""
         if self.virtual is None or self._state is None:
-            self._session.say("Only a virtual arm is woken all at once.", "error")
+            self._session.say(tr("Only a virtual arm is woken all at once."), "error")
             return
         asleep: list[int | None] = [joint for joint, awake in enumerate(self._state.awake) if not awake]
         if self._session.robot.gripper_servo is not None and not self._state.gripper_awake:
@@ -226,7 +230,7 @@ class DeviceControl(QObject):
             move = joint_move(self._session.robot, here, there)
             against = objections(self._session.robot, move, self._units, table=self.table)
             if against:
-                self._session.say("Not sent: " + " ".join(against), "error")
+                self._session.say(tr("Not sent: ") + " ".join(against), "error")
                 return False
         return self._tell(self._driver.move_to(there))
 
@@ -238,7 +242,7 @@ class DeviceControl(QObject):
     def take_pose(self) -> None:
         """Show the pose that the arm has been sent to."""
         if self._state is not None and np.isfinite(self._state.commanded_q).all():
-            self._session.move_to(self._state.commanded_q, "Show where the arm is")
+            self._session.move_to(self._state.commanded_q, tr("Show where the arm is"))
 
     def set_live(self, on: bool) -> None:
         """Let the arm follow every pose that is shown; it goes there calmly first."""
@@ -254,21 +258,21 @@ class DeviceControl(QObject):
         """Let the arm do the motion that is in the player, after checking it."""
         motion = self._motion.player.trajectory
         if self._driver is None or self._state is None:
-            self._session.say("Connect an arm first.", "error")
+            self._session.say(tr("Connect an arm first."), "error")
             return
         if motion is None:
-            self._session.say("There is no motion yet: track a line, a trajectory, or run a program.", "error")
+            self._session.say(tr("There is no motion yet: track a line, a trajectory, or run a program."), "error")
             return
         here = self._state.commanded_q  # from there it goes to the motion's start
         against = objections(self._session.robot, motion, self._units, table=self.table, here=here)
         if against:
-            self._session.say("Not run on the arm: " + " ".join(against), "error")
+            self._session.say(tr("Not run on the arm: ") + " ".join(against), "error")
             return
         self.set_live(False)
         self._motion.pause()
         if self._tell(self._driver.run(motion, approach=True)):
             self._witness.begin()
-            self._session.say("The arm goes calmly to where the motion begins, and then runs it. Esc stops.")
+            self._session.say(tr("The arm goes calmly to where the motion begins, and then runs it. Esc stops."))
 
     def grip(self, opening: float, seconds: float = 0.5) -> None:
         """Open or close the gripper: 0 closed … 1 open."""
@@ -282,7 +286,7 @@ class DeviceControl(QObject):
         self.set_live(False)
         self.poll()
         if refusal is not None:
-            self._session.say(f"The stop does not reach the arm: cut its power. {refusal}", "error")
+            self._session.say(tr("The stop does not reach the arm: cut its power. {refusal}", refusal=refusal), "error")
 
     def reset(self) -> None:
         """Lead out of the latched stop, deliberately."""
@@ -332,7 +336,9 @@ class DeviceControl(QObject):
             self._session.undo_stack.redo()
         else:
             self._take_limits(_NARROW, narrowed)
-        self._session.say("While an arm is connected the limits of its servos count. Disconnect it to go beyond them.")
+        self._session.say(
+            tr("While an arm is connected the limits of its servos count. Disconnect it to go beyond them.")
+        )
 
     def _widen(self) -> None:
         limits, self._session.servo_limits = self._session.servo_limits, None
@@ -340,7 +346,7 @@ class DeviceControl(QObject):
             return
         robot = limits.alone(self._session.robot)
         if not np.array_equal(robot.limits, self._session.robot.limits):
-            self._take_limits("Limits of the arm alone", robot)
+            self._take_limits(tr("Limits of the arm alone"), robot)
 
     def _take_limits(self, text: str, robot: Robot) -> None:
         tracked = self._session.tracking is not None
@@ -351,7 +357,7 @@ class DeviceControl(QObject):
     def _can_follow(self) -> bool:
         state = self._state
         if state is None or not state.connected or state.phase == "stopped" or not all(state.awake):
-            self._session.say("The arm can follow once every joint is awake and no stop is latched.", "error")
+            self._session.say(tr("The arm can follow once every joint is awake and no stop is latched."), "error")
             return False
         return self._is_at(self._session.q) or self.send_pose()
 
@@ -382,17 +388,19 @@ class DeviceControl(QObject):
             level = "error" if state.phase in ("stopped", "lost") else "info"
             self._session.say(words, level)
         elif before is not None and (before.phase, state.phase) == ("running", "ready"):
-            self._session.say("The arm has done the motion. The Measured page compares what came back.")
+            self._session.say(tr("The arm has done the motion. The Measured page compares what came back."))
         elif before is not None and before.phase in ("stopped", "lost") and state.phase not in ("stopped", "lost"):
             self._session.say(_RECOVERED[before.phase])
         elif state.clamped:
-            self._session.warn(f"Held at the limits of {', '.join(state.clamped)}: the arm does not go there.")
+            self._session.warn(
+                tr("Held at the limits of {clamped}: the arm does not go there.", clamped=", ".join(state.clamped))
+            )
 
     def _on_settled(self, before: Experiment, after: Experiment) -> None:
         if self._driver is None:
             return
         if not self._takes_wiring(after.robot):
-            self._driver.stop("Another arm was taken.")
+            self._driver.stop(tr("Another arm was taken."))
             limits, self._session.servo_limits = self._session.servo_limits, None
             self.disconnect_device()
             if limits is not None:
@@ -407,7 +415,7 @@ class DeviceControl(QObject):
         assert self._driver is not None
         touched = what_is_touched(self._session.robot, q, table=self.table)
         if touched:
-            self._session.warn(f"The arm waits: there it would touch {touched}.")
+            self._session.warn(tr("The arm waits: there it would touch {touched}.", touched=touched))
         else:
             self._tell(self._driver.stream(q))
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rvsim.gui.device_words import LANGUAGE_WORDS
+from rvsim.language import tr
 from rvsim.playback.recording import MOST_ROWS, Recording
 from rvsim.robot.arrays import FloatArray
 
@@ -47,9 +48,14 @@ class Witness:
 
     def words(self, driver: ArmDriver, is_virtual: bool) -> str:
         """How the motion was run, in sentences."""
-        where = "rvsim’s virtual arm" if is_virtual else f"the arm at {driver.url}"
-        how = f"It ran on {where} (controller: {LANGUAGE_WORDS[driver.language]}; {driver.baud} baud)."
+        where = tr("rvsim’s virtual arm") if is_virtual else tr("the arm at {url}", url=driver.url)
+        how = tr(
+            "It ran on {where} (controller: {language}; {baud} baud).",
+            where=where,
+            language=LANGUAGE_WORDS[driver.language],
+            baud=driver.baud,
+        )
         if not is_virtual:
             return how
         faults = ", ".join(sorted(self._faults))
-        return f"{how} Faults that were switched on: {faults or 'none'}."
+        return tr("{how} Faults that were switched on: {value}.", how=how, value=faults or "none")

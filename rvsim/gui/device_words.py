@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 from rvsim.device.driver.state import DriverState, Phase
+from rvsim.language import tr_later
 
 _WORDS: dict[Phase, str] = {
-    "disconnected": "Not connected",
-    "connecting": "Connecting …",
-    "asleep": "Connected, asleep",
-    "ready": "Ready",
-    "moving": "Moving",
-    "streaming": "Following",
-    "running": "Running",
+    "disconnected": tr_later("Not connected"),
+    "connecting": tr_later("Connecting …"),
+    "asleep": tr_later("Connected, asleep"),
+    "ready": tr_later("Ready"),
+    "moving": tr_later("Moving"),
+    "streaming": tr_later("Following"),
+    "running": tr_later("Running"),
     "stopped": "STOPPED",
-    "lost": "Connection lost",
+    "lost": tr_later("Connection lost"),
 }
 _LEVELS: dict[Phase, str] = {
     "asleep": "warning", "ready": "good", "moving": "good", "streaming": "good", "running": "good",
     "stopped": "error", "lost": "error",
 }  # fmt: skip
 
-LANGUAGE_WORDS = {"ssc32": "SSC-32, SSC-32U", "bridge": "Encoder bridge"}
+LANGUAGE_WORDS = {"ssc32": tr_later("SSC-32, SSC-32U"), "bridge": tr_later("Encoder bridge")}
 
 
 def phase_words(state: DriverState | None, title: str) -> str:

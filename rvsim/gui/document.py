@@ -19,12 +19,13 @@ from rvsim.gui.file_drop import FileDrop
 from rvsim.gui.file_problem import tell_problem
 from rvsim.gui.recent_files import RecentFiles
 from rvsim.gui.theme import set_role
+from rvsim.language import tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
 
 _FILTER = f"Sessions of rvsim (*{ENDING})"
-_UNTITLED = "Untitled"
+_UNTITLED = tr_later("Untitled")
 Then = Callable[[], object]
 
 
@@ -76,7 +77,12 @@ class Document(QObject):
 
     def show_title(self) -> None:
         """The window's title: "name* – RV-M1 – rvsim"."""
-        title = f"{self.name}{'*' if self.dirty else ''} \u2013 {self._session.robot.title} \u2013 rvsim"
+        title = tr(
+            "{name}{value} \u2013 {title} \u2013 rvsim",
+            name=self.name,
+            value="*" if self.dirty else "",
+            title=self._session.robot.title,
+        )
         self._window.setWindowTitle(title.replace("[*]", "[*][*]"))
 
     def _on_clean(self, clean: bool) -> None:
@@ -107,10 +113,10 @@ class Document(QObject):
         if self._question is not None:
             self._question.close()
         box = QMessageBox(
-            QMessageBox.Icon.Question, "rvsim", f"Save the changes to “{self.name}”?", parent=self._window
+            QMessageBox.Icon.Question, "rvsim", tr("Save the changes to “{name}”?", name=self.name), parent=self._window
         )
         box.setObjectName("unsaved_question")
-        box.setInformativeText("What is not saved will be lost.")
+        box.setInformativeText(tr("What is not saved will be lost."))
         buttons = QMessageBox.StandardButton
         box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
         box.setDefaultButton(buttons.Save)
@@ -141,14 +147,14 @@ class Document(QObject):
         self._session.begin(self._session.fresh(robot))
         self._became(None)
         self._window.scene_view.fit()
-        self._session.say("A new session. Drag a slider, or press Track line.")
+        self._session.say(tr("A new session. Drag a slider, or press Track line."))
 
     def ask_open(self) -> None:
         """Ask for a file, and open it."""
         self.leave(self._ask_open)
 
     def _ask_open(self) -> None:
-        file, _ = QFileDialog.getOpenFileName(self._window, "Open session", str(self._folder()), _FILTER)
+        file, _ = QFileDialog.getOpenFileName(self._window, tr("Open session"), str(self._folder()), _FILTER)
         if file:
             self.open(Path(file))
 
@@ -161,12 +167,12 @@ class Document(QObject):
         try:
             opened = load_session(file)
         except SessionFileError as problem:
-            self._fail("This session cannot be opened.", str(problem))
+            self._fail(tr("This session cannot be opened."), str(problem))
             return False
         show_state(self._window, opened.state)
         self._became(file.absolute(), read_only=opened.read_only)
         self.recent.add(file)
-        self._session.say(opened.notice or f"Opened {file}.", "warning" if opened.read_only else "info")
+        self._session.say(opened.notice or tr("Opened {file}.", file=file), "warning" if opened.read_only else "info")
         return True
 
     def recover(self, leftover: Leftover) -> bool:
@@ -174,14 +180,14 @@ class Document(QObject):
         try:
             opened = load_session(leftover.file)
         except SessionFileError as problem:
-            self._fail("This copy cannot be recovered.", str(problem))
+            self._fail(tr("This copy cannot be recovered."), str(problem))
             return False
         show_state(self._window, opened.state)
         self._became(leftover.original, unsaved=True)
         self.autosave.tick()
         if self.autosave.is_made:
             leftover.delete()
-        self._session.say(f"Recovered “{self.name}”. Save it to keep it.")
+        self._session.say(tr("Recovered “{name}”. Save it to keep it.", name=self.name))
         return True
 
     def _became(self, path: Path | None, *, read_only: bool = False, unsaved: bool = False) -> None:
@@ -203,7 +209,7 @@ class Document(QObject):
 
     def save_as(self) -> bool:
         """Ask where, and save there; whether it is saved."""
-        dialog = QFileDialog(self._window, "Save session as", str(self._folder()), _FILTER)
+        dialog = QFileDialog(self._window, tr("Save session as"), str(self._folder()), _FILTER)
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix(ENDING.removeprefix("."))
         dialog.selectFile(f"{self.path.stem if self.path else self._session.robot.name}{ENDING}")
@@ -214,17 +220,22 @@ class Document(QObject):
     def save_to(self, file: Path) -> bool:
         """Save there, or say why not; whether it is saved. What is open stays as it is either way."""
         if self.read_only and self.path is not None and _is_same(file, self.path):
-            self._fail("Not saved.", f"{file.name} was written by a newer rvsim: choose another name.")
+            self._fail(
+                tr("Not saved."), tr("{name} was written by a newer rvsim: choose another name.", name=file.name)
+            )
             return False
         state = state_of(self._window)
         try:
             save_session(state, file)
         except RvsimError as problem:
-            self._fail("Not saved: your work is still here.", f"{problem} Try another place, with “Save as”.")
+            self._fail(
+                tr("Not saved: your work is still here."),
+                tr("{problem} Try another place, with “Save as”.", problem=problem),
+            )
             return False
         self._became(file.absolute())
         self.recent.add(file)
-        self._session.say(f"Saved {file}.")
+        self._session.say(tr("Saved {file}.", file=file))
         return True
 
     def _folder(self) -> Path:

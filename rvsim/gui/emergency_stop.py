@@ -9,11 +9,12 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QSizePolicy, QToolBar, 
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.theme import set_role
+from rvsim.language import tr, tr_later
 
 _KEYS = (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress)
 _GROWS = (QEvent.Type.LayoutRequest, QEvent.Type.Polish, QEvent.Type.FontChange, QEvent.Type.Show)
 _MARGIN = 20
-_TIP = "Stop whatever moves, at once (Esc). An arm that is connected stays stopped until the stop is reset"
+_TIP = tr_later("Stop whatever moves, at once (Esc). An arm that is connected stays stopped until the stop is reset")
 
 
 class EmergencyStop(QObject):
@@ -25,12 +26,12 @@ class EmergencyStop(QObject):
         self._watching = False
         self.button = QToolButton()
         self.button.setObjectName("emergency_stop_button")
-        self.button.setText("● STOP  Esc")
-        self.button.setAccessibleName("Emergency stop")
+        self.button.setText(tr("● STOP  Esc"))
+        self.button.setAccessibleName(tr("Emergency stop"))
         self.button.setToolTip(_TIP)
         set_role(self.button, role="stop")
         # When it goes down, not when it is let go: somebody may be holding the arm.
-        self.button.pressed.connect(lambda: self.stop("The stop button was pressed."))
+        self.button.pressed.connect(lambda: self.stop(tr("The stop button was pressed.")))
         device.state_changed.connect(lambda _: self._watch(device.state is not None))
 
     def stop(self, reason: str) -> None:
@@ -50,7 +51,7 @@ class EmergencyStop(QObject):
     def _on_escape(self, repeated: bool) -> None:
         state = self._device.state
         if not repeated and state is not None and state.phase != "stopped":
-            self.stop("Esc was pressed.")
+            self.stop(tr("Esc was pressed."))
 
     def toolbar(self) -> QToolBar:
         """A bar at the right end of its row that is never shortened: it holds nothing but the button."""
@@ -72,7 +73,7 @@ class _StopBar(QToolBar):
     """As wide as the button needs, whatever the style and the size of the letters."""
 
     def __init__(self, button: QToolButton) -> None:
-        super().__init__("Stop")
+        super().__init__(tr("Stop"))
         self._button = button
         self.setObjectName("stop_toolbar")
         self.setMovable(False)

@@ -13,6 +13,7 @@ from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.session import Session
 from rvsim.lab.motion_table import TableUnits, motion_csv
 from rvsim.lab.script import motion_script, tracking_script
+from rvsim.language import tr
 from rvsim.motion import Trajectory
 from rvsim.playback.curves import curves_of
 
@@ -46,18 +47,18 @@ def _samples(trajectory: Trajectory, most: int) -> int:
 
 def ask_motion_csv(parent: QWidget, session: Session, motion: MotionControl, units: TableUnits = "screen") -> None:
     """Ask for a place and write the motion there as CSV."""
-    _ask(parent, session, "Export motion as CSV", "motion.csv", lambda: motion_table(session, motion, units))
+    _ask(parent, session, tr("Export motion as CSV"), "motion.csv", lambda: motion_table(session, motion, units))
 
 
 def ask_script(parent: QWidget, session: Session, motion: MotionControl) -> None:
     """Ask for a place and write the script there."""
-    _ask(parent, session, "Export Python script", "motion.py", lambda: script(session, motion))
+    _ask(parent, session, tr("Export Python script"), "motion.py", lambda: script(session, motion))
 
 
 def _ask(parent: QWidget, session: Session, title: str, name: str, make: Callable[[], str | None]) -> None:
     text = make()
     if text is None:
-        session.warn("No motion yet: track a line or run a program first.")
+        session.warn(tr("No motion yet: track a line or run a program first."))
         return
     ending = Path(name).suffix
     start = str(Path.home() / f"{session.robot.name}-{name}")
@@ -71,6 +72,8 @@ def write_export(session: Session, path: Path, text: str) -> None:
     try:
         write_atomically(path, text.encode())
     except OSError as problem:
-        session.say(f"Not saved: {path} cannot be written ({problem.strerror or problem}).", "error")
+        session.say(
+            tr("Not saved: {path} cannot be written ({value}).", path=path, value=problem.strerror or problem), "error"
+        )
         return
-    session.say(f"Saved {path}.")
+    session.say(tr("Saved {path}.", path=path))

@@ -15,6 +15,7 @@ from rvsim.gui.stage import Stage
 from rvsim.gui.target import TargetControl, Wish
 from rvsim.gui.target_solution import CLOSED_FORM
 from rvsim.kinematics import link_transforms
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene import Ray
@@ -122,8 +123,10 @@ class GizmoDrag(QObject):
         if on == self._tool_axes or self._grip is not None:
             return
         self._tool_axes = on
-        whose, other = ("tool's own", "base's") if on else ("base's", "tool's own")
-        self._control.session.say(f"The arrows lie along the {whose} axes. Press T for the {other}.")
+        whose, other = (tr("tool's own"), "base's") if on else ("base's", tr("tool's own"))
+        self._control.session.say(
+            tr("The arrows lie along the {whose} axes. Press T for the {other}.", whose=whose, other=other)
+        )
         self.axes_switched.emit(on)
         self._show()
 
@@ -172,7 +175,7 @@ class GizmoDrag(QObject):
         where = dragged(self._grip, self._ray(at), self._amount, snap)
         if where is not None:
             self._amount = where.amount
-            self._wish(where.T, self._text(), "drag the target")
+            self._wish(where.T, self._text(), tr("drag the target"))
 
     def release(self) -> None:
         """Let go: the drag becomes one step of undo."""
@@ -189,7 +192,7 @@ class GizmoDrag(QObject):
         if self._grip is None:
             return False
         text, self._grip = self._text(), None
-        self._control.take_back(self._before, text, "drag the target")
+        self._control.take_back(self._before, text, tr("drag the target"))
         self._control.session.end_stroke()
         self._show()
         return True
@@ -201,7 +204,7 @@ class GizmoDrag(QObject):
 
     def _text(self) -> str:
         ring = self._grip is not None and self._grip.handle.kind == "ring"
-        return "Turn the tool" if ring else "Drag the tool"
+        return tr("Turn the tool") if ring else tr("Drag the tool")
 
     def _wish(self, T: FloatArray, text: str, merge: str) -> None:
         self._control.request(Wish(T, text, merge, self._freedom().task, creeps=True))
@@ -229,7 +232,7 @@ class GizmoDrag(QObject):
         scale = next((scale for modifier, scale in _NUDGE.items() if modifiers & modifier), 1.0)
         length = scale * _STEP[self._control.session.robot.length_unit]
         self._control.flush()
-        self._wish(moved(self._control.T, length * step), "Nudge the tool", "nudge the target")
+        self._wish(moved(self._control.T, length * step), tr("Nudge the tool"), tr("nudge the target"))
         return True
 
     def _step(self, key: Qt.Key) -> FloatArray | None:

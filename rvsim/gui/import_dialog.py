@@ -43,27 +43,34 @@ from rvsim.lab.table_import import (
     times_in,
     wanted_columns,
 )
+from rvsim.language import tr, tr_later
 from rvsim.motion.recorded import motion_through
 from rvsim.robot.arrays import FloatArray
 
-_CONTENTS = {"joints": "Joints of the arm", "points": "Points of the tool"}
-_DELIMITERS = {",": "Comma", ";": "Semicolon", "\t": "Tab", " ": "Blanks"}
+_CONTENTS = {"joints": tr_later("Joints of the arm"), "points": tr_later("Points of the tool")}
+_DELIMITERS = {",": "Comma", ";": "Semicolon", "\t": "Tab", " ": tr_later("Blanks")}
 _ANGLES = {"deg": "degrees", "rad": "radians"}
-_LENGTHS = {"mm": "millimetres", "m": "metres", "unit": "the arm's unit"}
+_LENGTHS = {"mm": "millimetres", "m": "metres", "unit": tr_later("the arm's unit")}
 _USES = {
-    "joints": {"motion": "Play it as one motion", "program": "Joint moves, behind those of the program"},
-    "points": {"path": "The trajectory to track", "program": "Lines, behind the moves of the program"},
+    "joints": {
+        "motion": tr_later("Play it as one motion"),
+        "program": tr_later("Joint moves, behind those of the program"),
+    },
+    "points": {
+        "path": tr_later("The trajectory to track"),
+        "program": tr_later("Lines, behind the moves of the program"),
+    },
 }
 _NO_TIME = -1
 _PREVIEW_ROWS = 8
 _IN_A_ROW = 3
 _MOST_POINTS = 20_000
-_FILES = "Tables (*.csv *.txt *.tsv);;All files (*)"
+_FILES = tr_later("Tables (*.csv *.txt *.tsv);;All files (*)")
 
 
 def ask_import(parent: QWidget, session: Session, motion: MotionControl, tracker: PathTracker) -> None:
     """Ask for a file and open the dialog for it; a file without a table is told of in the status line."""
-    file, _ = QFileDialog.getOpenFileName(parent, "Import joints or points", str(Path.home()), _FILES)
+    file, _ = QFileDialog.getOpenFileName(parent, tr("Import joints or points"), str(Path.home()), _FILES)
     if file:
         open_import(parent, session, motion, tracker, Path(file))
 
@@ -94,7 +101,7 @@ class ImportDialog(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setObjectName("import_dialog")
-        self.setWindowTitle(f"Import {file.name}")
+        self.setWindowTitle(tr("Import {name}", name=file.name))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._motion, self._tracker = session, motion, tracker
         self._robot, self._path, self._text = session.robot, file, read_text(file)
@@ -108,15 +115,15 @@ class ImportDialog(QDialog):
     # --- assembly --------------------------------------------------------------------------------------------------
 
     def _make_choices(self) -> None:
-        self.content_box = combo("import_content", "What the file holds", _CONTENTS)
-        self.delimiter_box = combo("import_delimiter", "What separates the columns", _DELIMITERS)
-        self.header = QCheckBox("The first row names the columns")
+        self.content_box = combo("import_content", tr("What the file holds"), _CONTENTS)
+        self.delimiter_box = combo("import_delimiter", tr("What separates the columns"), _DELIMITERS)
+        self.header = QCheckBox(tr("The first row names the columns"))
         self.header.setObjectName("import_header")
         self.header.setChecked(self.table.has_header)
-        self.angle_box = combo("import_angle_unit", "Unit of the angles", _ANGLES)
-        self.length_box = combo("import_length_unit", "Unit of the lengths", _LENGTHS)
-        self.time_box = combo("import_time", "Column of the time")
-        self.use_box = combo("import_use", "What is made of it")
+        self.angle_box = combo("import_angle_unit", tr("Unit of the angles"), _ANGLES)
+        self.length_box = combo("import_length_unit", tr("Unit of the lengths"), _LENGTHS)
+        self.time_box = combo("import_time", tr("Column of the time"))
+        self.use_box = combo("import_use", tr("What is made of it"))
         select(self.delimiter_box, self.table.delimiter)
         self.content_box.activated.connect(lambda _: self._show_columns())
         self.delimiter_box.activated.connect(lambda _: self._reread())
@@ -127,28 +134,32 @@ class ImportDialog(QDialog):
     def _lay_out(self) -> None:
         self.preview = QTableWidget()
         self.preview.setObjectName("import_preview")
-        self.preview.setAccessibleName("First rows of the file")
+        self.preview.setAccessibleName(tr("First rows of the file"))
         self.preview.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.preview.setMinimumHeight(150)
         self.summary = wrapped_label("muted")
         self.summary.setObjectName("import_summary")
         self._mapping = QGridLayout()
         self._mapping.setSpacing(6)
-        self._angle_label, self._length_label, self._time_label = QLabel("Angles"), QLabel("Lengths"), QLabel("Time")
+        self._angle_label, self._length_label, self._time_label = (
+            QLabel(tr("Angles")),
+            QLabel(tr("Lengths")),
+            QLabel(tr("Time")),
+        )
         rows = form()
-        rows.addRow("Columns", self.delimiter_box)
+        rows.addRow(tr("Columns"), self.delimiter_box)
         rows.addRow("", self.header)
-        rows.addRow("Holds", self.content_box)
+        rows.addRow(tr("Holds"), self.content_box)
         rows.addRow(self._mapping)
         rows.addRow(self._angle_label, self.angle_box)
         rows.addRow(self._length_label, self.length_box)
         rows.addRow(self._time_label, self.time_box)
-        rows.addRow("Make it", self.use_box)
-        self.import_button = button("import_start", "Import", "Take it in", self.take, primary=True)
+        rows.addRow(tr("Make it"), self.use_box)
+        self.import_button = button("import_start", tr("Import"), tr("Take it in"), self.take, primary=True)
         buttons = QHBoxLayout()
         buttons.addStretch(1)
         buttons.addWidget(self.import_button)
-        buttons.addWidget(button("import_cancel", "Cancel", "Leave everything as it is", self.reject))
+        buttons.addWidget(button("import_cancel", tr("Cancel"), tr("Leave everything as it is"), self.reject))
         column = QVBoxLayout(self)
         column.setSpacing(8)
         column.addWidget(self.preview, 1)
@@ -234,7 +245,7 @@ class ImportDialog(QDialog):
 
     def _column_box(self, number: int, guess: int) -> QComboBox:
         names = dict(enumerate(self.table.names))
-        box = combo(f"import_column_{number + 1}", f"Column of {self.wanted[number].name}")
+        box = combo(f"import_column_{number + 1}", tr("Column of {name}", name=self.wanted[number].name))
         box.setMinimumContentsLength(4)
         for index, name in names.items():
             box.addItem(name, index)
@@ -261,7 +272,7 @@ class ImportDialog(QDialog):
         self._time_label.setVisible(joints)
         with QSignalBlocker(self.time_box):
             self.time_box.clear()
-            self.time_box.addItem("none: at the arm's own pace", _NO_TIME)
+            self.time_box.addItem(tr("none: at the arm's own pace"), _NO_TIME)
             for index, name in enumerate(self.table.names):
                 self.time_box.addItem(name, index)
             guess = column_for(self.table, TIME.spellings)
@@ -301,7 +312,7 @@ class ImportDialog(QDialog):
     def take(self) -> None:
         """Make of it what was chosen, undoably, and close."""
         if self._session.robot is not self._robot:
-            self._say("Another arm is in use now: open the file again.", bad=True)
+            self._say(tr("Another arm is in use now: open the file again."), bad=True)
             return
         try:
             {"motion": self._take_motion, "program": self._take_program, "path": self._take_path}[self.use]()
@@ -315,20 +326,44 @@ class ImportDialog(QDialog):
         motion = motion_through(self._robot, experiment.q, q, self._times(), law=experiment.law)
         self._tracker.cancel()
         self._tracker.clear()
-        self._motion.load(motion, f"Play {self._path.name}")
+        self._motion.load(motion, tr("Play {name}", name=self._path.name))
         self._motion.play()
-        self._session.say(f"{len(q)} poses from {self._path.name}, {motion.duration:.1f} s.")
+        self._session.say(
+            tr(
+                "{count} poses from {name}, {duration:.1f} s.",
+                count=len(q),
+                name=self._path.name,
+                duration=motion.duration,
+            )
+        )
 
     def _take_program(self) -> None:
         moves = moves_through(self.table, self._values(), self.content)
         experiment = self._session.experiment
-        self._session.edit(f"Import {self._path.name}", replace(experiment, program=(*experiment.program, *moves)))
-        self._session.say(f"{len(moves)} moves from {self._path.name}, behind those of the program.")
+        self._session.edit(
+            tr("Import {name}", name=self._path.name), replace(experiment, program=(*experiment.program, *moves))
+        )
+        self._session.say(
+            tr("{count} moves from {name}, behind those of the program.", count=len(moves), name=self._path.name)
+        )
 
     def _take_path(self) -> None:
         points = self._values()
         if len(points) > _MOST_POINTS:
-            raise PathFileError(self._path, "the file", f"{len(points)} points", f"at most {_MOST_POINTS} for a path")
+            raise PathFileError(
+                self._path,
+                tr("the file"),
+                tr("{count} points", count=len(points)),
+                tr("at most {most_points} for a path", most_points=_MOST_POINTS),
+            )
         task = TrajectoryTask("points", "source", shape=PointsShape(points, "none" if len(points) > 2 else "lines"))
-        self._session.edit(f"Import {self._path.name}", replace(self._session.experiment, trajectory=task))
-        self._session.say(f"{len(points)} points from {self._path.name}: track the trajectory to see what is reached.")
+        self._session.edit(
+            tr("Import {name}", name=self._path.name), replace(self._session.experiment, trajectory=task)
+        )
+        self._session.say(
+            tr(
+                "{count} points from {name}: track the trajectory to see what is reached.",
+                count=len(points),
+                name=self._path.name,
+            )
+        )

@@ -52,6 +52,7 @@ from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.undo_words import UndoWords
 from rvsim.gui.widgets import ElidedLabel, column_of
+from rvsim.language import tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.device.driver.state import DriverState
@@ -60,8 +61,8 @@ _TOOLBAR = ("home", "|", "undo", "redo", "|", "view_iso", "view_top", "view_fron
             "|", "look_stick", "look_solid", "look_both", "show_frames", "|",
             "show_plots", "dark")  # fmt: skip
 _TOOLBAR_TEXTS = {
-    "home": "⌂ Home", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": "Iso",
-    "look_stick": "Stick", "look_both": "Both", "dark": "◐",
+    "home": "⌂ Home", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": tr_later("Iso"),
+    "look_stick": tr_later("Stick"), "look_both": tr_later("Both"), "dark": "◐",
 }  # fmt: skip
 _TELL_MS = 250
 _STATE_VERSION = 3
@@ -125,7 +126,7 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(center)
 
     def _make_docks(self) -> None:
-        self.docks = PanelDocks(self, ("arm", "Arm", self.joints), self._right_panels())
+        self.docks = PanelDocks(self, ("arm", tr("Arm"), self.joints), self._right_panels())
         menu = self.findChild(QMenu, "view_menu")
         assert menu is not None
         menu.addSeparator()
@@ -137,27 +138,31 @@ class MainWindow(QMainWindow):
     def _right_panels(self) -> list[tuple[str, str, QWidget]]:
         arguments = (self.session, self.preferences)
         beside = path_pages(*arguments, self.stage, self.tracker, self.motion)
-        tip = "Lines and trajectories, and what came of tracking them"
-        path = (Page("path", "Track", tip, PathPanel(*arguments, self.tracker, self.stage)), *beside)
+        tip = tr("Lines and trajectories, and what came of tracking them")
+        path = (Page("path", tr("Track"), tip, PathPanel(*arguments, self.tracker, self.stage)), *beside)
         inverse = (
-            Page("inverse", "Solve", "Every branch for a wanted pose, and why not", self._make_inverse()),
-            Page("how", "How", "The closed form, step by step with this target's numbers", HowPanel(*arguments)),
-            Page("lab", "Lab", "Numeric solvers side by side", self._make_laboratory()),
+            Page("inverse", tr("Solve"), tr("Every branch for a wanted pose, and why not"), self._make_inverse()),
+            Page(
+                "how", tr("How"), tr("The closed form, step by step with this target's numbers"), HowPanel(*arguments)
+            ),
+            Page("lab", tr("Lab"), tr("Numeric solvers side by side"), self._make_laboratory()),
         )
         model = (
-            Page("tool", "Tool", "Where the tool is, in every notation", ToolPanel(*arguments)),
-            Page("matrices", "Matrices", "Every A and the product up to it", MatricesPanel(*arguments)),
-            Page("points", "Points", "The characteristic points of the stick figure", PointsPanel(*arguments)),
-            Page("dh", "DH table", "The Denavit–Hartenberg table, to be changed live", DHTablePanel(*arguments)),
+            Page("tool", tr("Tool"), tr("Where the tool is, in every notation"), ToolPanel(*arguments)),
+            Page("matrices", tr("Matrices"), tr("Every A and the product up to it"), MatricesPanel(*arguments)),
+            Page("points", tr("Points"), tr("The characteristic points of the stick figure"), PointsPanel(*arguments)),
+            Page(
+                "dh", tr("DH table"), tr("The Denavit–Hartenberg table, to be changed live"), DHTablePanel(*arguments)
+            ),
         )
         return [
-            ("path", "Path", PageStack("path_pages", path)),
-            ("inverse", "Inverse", PageStack("inverse_pages", inverse)),
-            ("inspect", "Inspect", inspector(*arguments, self.stage)),
-            ("model", "Model", PageStack("model_pages", model)),
+            ("path", tr("Path"), PageStack("path_pages", path)),
+            ("inverse", tr("Inverse"), PageStack("inverse_pages", inverse)),
+            ("inspect", tr("Inspect"), inspector(*arguments, self.stage)),
+            ("model", tr("Model"), PageStack("model_pages", model)),
             (
                 "device",
-                "Device",
+                tr("Device"),
                 PageStack("device_pages", device_pages(*arguments, self.stage, self.device, self.served)),
             ),
         ]
@@ -185,7 +190,7 @@ class MainWindow(QMainWindow):
         return self.laboratory
 
     def _make_toolbar(self) -> None:
-        bar = QToolBar("Toolbar", self)
+        bar = QToolBar(tr("Toolbar"), self)
         bar.setObjectName("toolbar")
         bar.setMovable(False)
         bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
@@ -205,16 +210,20 @@ class MainWindow(QMainWindow):
         assert edit is not None
         first = edit.actions()[0]
         for name, action, keys in (
-            ("undo", stack.createUndoAction(self, "Undo"), "Ctrl+Z"),
-            ("redo", stack.createRedoAction(self, "Redo"), "Ctrl+Shift+Z"),
+            ("undo", stack.createUndoAction(self, tr("Undo")), "Ctrl+Z"),
+            ("redo", stack.createRedoAction(self, tr("Redo")), "Ctrl+Shift+Z"),
         ):
             action.setObjectName(f"action_{name}")
             action.setShortcut(keys)
             edit.insertAction(first, action)
             self.actions_by_name[name] = action
         UndoWords(self.actions_by_name["undo"], self.actions_by_name["redo"], stack, self)
-        self.actions_by_name["undo"].triggered.connect(lambda: self.session.say(f"Undone: {stack.redoText()}."))
-        self.actions_by_name["redo"].triggered.connect(lambda: self.session.say(f"Done again: {stack.undoText()}."))
+        self.actions_by_name["undo"].triggered.connect(
+            lambda: self.session.say(tr("Undone: {redoText}.", redoText=stack.redoText()))
+        )
+        self.actions_by_name["redo"].triggered.connect(
+            lambda: self.session.say(tr("Done again: {undoText}.", undoText=stack.undoText()))
+        )
 
     def _add_recent_menu(self) -> None:
         files = self.findChild(QMenu, "file_menu")
@@ -225,7 +234,7 @@ class MainWindow(QMainWindow):
     def _make_status_bar(self, choice: Choice) -> None:
         self.message = ElidedLabel()
         self.message.setObjectName("status_message")
-        self.message.setAccessibleName("Message")
+        self.message.setAccessibleName(tr("Message"))
         self._said = "", ""
         self._told_time = QElapsedTimer()
         self.renderer_label = QLabel(choice.name)
@@ -315,7 +324,7 @@ class MainWindow(QMainWindow):
 
     def say_welcome(self) -> None:
         """The first minute: what to do now."""
-        self.session.say("Drag a slider, or press Track line.")
+        self.session.say(tr("Drag a slider, or press Track line."))
         for problem in (find_user_folder().problem, *self.library.problems):
             self.session.warn(problem)
 
@@ -360,7 +369,7 @@ class MainWindow(QMainWindow):
         """Remember the layout; stop what moves. Where work would be lost, ask first."""
         self.motion.pause()
         if self.device.moves:  # before any question is asked
-            self.device.stop("The window was to be closed.")
+            self.device.stop(tr("The window was to be closed."))
         if not self.document.may_close():
             event.ignore()
             return

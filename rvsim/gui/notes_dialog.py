@@ -9,6 +9,7 @@ from rvsim.experiment import Experiment, Notes
 from rvsim.files.session.tables import LONGEST_NOTES
 from rvsim.gui.session import Session
 from rvsim.gui.widgets import form
+from rvsim.language import tr
 
 _LONGEST_NAME = 2000
 
@@ -19,24 +20,24 @@ class NotesDialog(QDialog):
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent)
         self.setObjectName("notes_dialog")
-        self.setWindowTitle("Notes")
+        self.setWindowTitle(tr("Notes"))
         self._session = session
         self.student = QLineEdit()
         self.student.setObjectName("notes_student")
-        self.student.setAccessibleName("Your name")
+        self.student.setAccessibleName(tr("Your name"))
         self.student.setMaxLength(_LONGEST_NAME)
-        self.student.textEdited.connect(lambda _: self._write("Write the name", "student"))
+        self.student.textEdited.connect(lambda _: self._write(tr("Write the name"), "student"))
         self.student.editingFinished.connect(session.end_stroke)
         self.text = QPlainTextEdit()
         self.text.setObjectName("notes_text")
-        self.text.setAccessibleName("Notes")
+        self.text.setAccessibleName(tr("Notes"))
         self.text.setTabChangesFocus(True)
-        self.text.setPlaceholderText("What you did, what you saw, what you conclude. It is saved with the session.")
-        self.text.textChanged.connect(lambda: self._write("Write notes", "text"))
+        self.text.setPlaceholderText(tr("What you did, what you saw, what you conclude. It is saved with the session."))
+        self.text.textChanged.connect(lambda: self._write(tr("Write notes"), "text"))
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.close)
         rows = form()
-        rows.addRow("Your name", self.student)
+        rows.addRow(tr("Your name"), self.student)
         column = QVBoxLayout(self)
         column.addLayout(rows)
         column.addWidget(self.text, 1)
@@ -48,7 +49,9 @@ class NotesDialog(QDialog):
     def _write(self, text: str, merge: str) -> None:
         written = self.text.toPlainText()
         if len(written) > LONGEST_NOTES:
-            self._session.warn(f"Notes have at most {LONGEST_NOTES} characters: the rest was left out.")
+            self._session.warn(
+                tr("Notes have at most {longest_notes} characters: the rest was left out.", longest_notes=LONGEST_NOTES)
+            )
         notes = Notes(self.student.text(), written[:LONGEST_NOTES])
         self._session.edit(text, self._session.experiment.with_notes(notes), merge=f"notes {merge}")
 

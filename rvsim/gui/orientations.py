@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rvsim.gui.quantities import Kind
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import (
     axis_angle_from_rotation,
@@ -44,7 +45,11 @@ class Notation(NamedTuple):
         if not self.direction or float(np.linalg.norm(values[: self.direction])) >= _NO_DIRECTION:
             return ""
         names = ", ".join(self.names[: self.direction])
-        return f"{'0 ' * self.direction}has no direction: one of {names} must be other than 0. The tool stays."
+        return tr(
+            "{direction}has no direction: one of {names} must be other than 0. The tool stays.",
+            direction="0 " * self.direction,
+            names=names,
+        )
 
 
 def _quaternion(R: FloatArray) -> FloatArray:
@@ -67,16 +72,16 @@ def _rotation_of_axis_and_angle(numbers: FloatArray) -> FloatArray:
     return rotation_from_axis_angle(numbers[:3], numbers[3])
 
 
-_PASTE_THREE = "Three numbers can be pasted or typed into any of the boxes."
-_PASTE_FOUR = (
+_PASTE_THREE = tr_later("Three numbers can be pasted or typed into any of the boxes.")
+_PASTE_FOUR = tr_later(
     "Type one after the other: each stays as it is typed until you leave the boxes,\n"
     "{}\nFour numbers can be pasted or typed into any of the boxes."
 )
 _ANGLES: tuple[Kind, ...] = ("angle", "angle", "angle")
 NOTATIONS = {
     "rpy": Notation(
-        "Roll, pitch, yaw",
-        "R = Rz(yaw) · Ry(pitch) · Rx(roll), about the axes of the base. At pitch ±90° roll is shown as 0.",
+        tr_later("Roll, pitch, yaw"),
+        tr_later("R = Rz(yaw) · Ry(pitch) · Rx(roll), about the axes of the base. At pitch ±90° roll is shown as 0."),
         ("roll", "pitch", "yaw"),
         _ANGLES,
         rpy_from_rotation,
@@ -84,8 +89,8 @@ NOTATIONS = {
         _PASTE_THREE,
     ),
     "zyz": Notation(
-        "ZYZ Euler angles",
-        "R = Rz(φ) · Ry(θ) · Rz(ψ), about the moving axes. At θ = 0° or 180° φ is shown as 0.",
+        tr_later("ZYZ Euler angles"),
+        tr_later("R = Rz(φ) · Ry(θ) · Rz(ψ), about the moving axes. At θ = 0° or 180° φ is shown as 0."),
         ("φ", "θ", "ψ"),
         _ANGLES,
         zyz_from_rotation,
@@ -93,29 +98,29 @@ NOTATIONS = {
         _PASTE_THREE,
     ),
     "quaternion": Notation(
-        "Quaternion",
-        "q = w + x i + y j + z k, a unit quaternion with the scalar first and w ≥ 0.",
+        tr_later("Quaternion"),
+        tr_later("q = w + x i + y j + z k, a unit quaternion with the scalar first and w ≥ 0."),
         ("w", "x", "y", "z"),
         ("number", "number", "number", "number"),
         _quaternion,
         rotation_from_quaternion,
-        _PASTE_FOUR.format("then the four are shown brought to length 1, as the tool has taken them."),
+        _PASTE_FOUR.format(tr_later("then the four are shown brought to length 1, as the tool has taken them.")),
         4,
     ),
     "axis_angle": Notation(
-        "Axis and angle",
-        "A turn by the angle, 0° to 180°, about a unit axis in base coordinates.",
+        tr_later("Axis and angle"),
+        tr_later("A turn by the angle, 0° to 180°, about a unit axis in base coordinates."),
         ("axis x", "axis y", "axis z", "angle"),
         ("number", "number", "number", "angle"),
         _axis_and_angle,
         _rotation_of_axis_and_angle,
-        _PASTE_FOUR.format("then the axis is shown brought to length 1, as the tool has taken it."),
+        _PASTE_FOUR.format(tr_later("then the axis is shown brought to length 1, as the tool has taken it.")),
         3,
     ),
 }
 MATRIX = "matrix"
-MATRIX_TITLE = "Matrix n o a p"
-MATRIX_CONVENTION = "n, o, a are the tool's axes and p is its origin, in base coordinates."
+MATRIX_TITLE = tr_later("Matrix n o a p")
+MATRIX_CONVENTION = tr_later("n, o, a are the tool's axes and p is its origin, in base coordinates.")
 
 
 def notation_titles() -> dict[str, str]:

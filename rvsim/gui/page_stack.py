@@ -9,6 +9,8 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
 
+from rvsim.language import tr
+
 _MOST_IN_ROW = 4
 _ROOM = 8  # [pixels] of padding in a button
 
@@ -65,7 +67,7 @@ class PageStack(QWidget):
         made.setObjectName(f"{page.name}_page_button")
         made.setText(page.title)
         made.setToolTip(page.tip)
-        made.setStatusTip(f"{page.tip}. F1 explains this page.")
+        made.setStatusTip(tr("{tip}. F1 explains this page.", tip=page.tip))
         made.setCheckable(True)
         made.setProperty("role", "page")
         made.setSizePolicy(made.sizePolicy().horizontalPolicy().Expanding, made.sizePolicy().verticalPolicy())

@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QWidget
 
 from rvsim.gui.page_stack import Page, PageStack
+from rvsim.language import tr
 
 
 class PanelDocks:
@@ -56,7 +57,7 @@ class PanelDocks:
 
     def make_menu(self) -> QMenu:
         """Keys that bring each panel to the front, its pages, and switches that hide it."""
-        panels, hidden = QMenu("Panels", self._window), QMenu("Hide or show", self._window)
+        panels, hidden = QMenu(tr("Panels"), self._window), QMenu(tr("Hide or show"), self._window)
         for number, dock in enumerate(self.all, 1):
             action = panels.addAction(dock.windowTitle())
             action.setObjectName(f"action_go_to_{dock.objectName()}")

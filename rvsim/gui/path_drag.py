@@ -15,13 +15,14 @@ from rvsim.gui.scene_view import Grabber
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.lab.shape_paths import placed_task, placement_of
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene import Ray
 from rvsim.scene.gizmo import GIZMO_KEY, Gizmo, Grip, Handle, dragged, gizmo_at, gizmo_items, handle_under, take_hold
 from rvsim.scene.primitives import Item
 from rvsim.spatial import rotation_from_rpy, rpy_from_rotation, transform
 
-LAYER = "path gizmo"
+LAYER = tr_later("path gizmo")
 SIZE = "size"  # the arrow along the diagonal, which scales
 _SNAP_ANGLE = math.radians(5.0)
 _SNAP_SCALE = 0.1
@@ -170,7 +171,9 @@ class PathDrag(QObject):
             return  # what is held was the path of another arm
         task = self._began[0].trajectory
         moved = task if placement is None else placed_task(self._session.robot, task, placement)
-        self._session.edit("Move the path", replace(self._session.experiment, trajectory=moved), merge="drag the path")
+        self._session.edit(
+            tr("Move the path"), replace(self._session.experiment, trajectory=moved), merge="drag the path"
+        )
 
     def _on_settled(self, before: Experiment, after: Experiment) -> None:
         if after.trajectory is not before.trajectory or after.robot is not before.robot:

@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
 from rvsim.gui.renderers.painter_ink import qcolor
+from rvsim.language import tr
 from rvsim.motion import Tracking
 from rvsim.scene.palette import ScenePalette
 from rvsim.scene.primitives import Color
@@ -30,11 +31,11 @@ def path_entries(tracking: Tracking | None, palette: ScenePalette, *, trail: boo
     """What there is to tell of a tracked path: only what can be seen of it."""
     if tracking is None:
         return ()
-    entries = [Entry(palette.desired, "path asked for")]
+    entries = [Entry(palette.desired, tr("path asked for"))]
     if not tracking.complete:
-        entries.append(Entry(palette.unreached, "not reached", dashed=True, sign="×"))
+        entries.append(Entry(palette.unreached, tr("not reached"), dashed=True, sign="×"))
     if trail and tracking.reached_count:
-        entries.append(Entry(palette.actual, "where the tool went"))
+        entries.append(Entry(palette.actual, tr("where the tool went")))
     return tuple(entries)
 
 

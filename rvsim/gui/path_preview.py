@@ -17,10 +17,11 @@ from rvsim.gui.tracker import takes_long
 from rvsim.gui.workers import LatestWorker
 from rvsim.lab.orientations import normal_gap
 from rvsim.lab.shape_paths import plane_normal, task_path
+from rvsim.language import tr, tr_later
 from rvsim.motion import Path, Tracking, track
 from rvsim.scene.paths import path_items
 
-LAYER = "path preview"
+LAYER = tr_later("path preview")
 _MARKED_POINTS = 25
 _WORTH_SAYING = np.radians(0.5)
 
@@ -103,7 +104,7 @@ class PathPreview(QObject):
         self._reached = np.ones(self.path.samples, dtype=bool)
         job = partial(_reach_of, experiment, self.path)
         if takes_long(experiment.robot, self.path):
-            self.reach = Reach(None, "Asking how much is in reach …", True)
+            self.reach = Reach(None, tr("Asking how much is in reach …"), True)
             self._worker.ask(job)
             self._draw()
             self.changed.emit()
@@ -115,7 +116,7 @@ class PathPreview(QObject):
         if self.path is None:
             return
         if tracking is None:
-            self.reach = Reach(None, "How much is in reach is not known for this arm.", True)
+            self.reach = Reach(None, tr("How much is in reach is not known for this arm."), True)
         else:
             self._reached = tracking.reached
             self.reach = self._said(tracking)
@@ -124,11 +125,17 @@ class PathPreview(QObject):
 
     def _said(self, tracking: Tracking) -> Reach:
         share = tracking.reached_count / tracking.samples
-        limits = "in reach" if tracking.ignore_limits else "within limits"
+        limits = tr("in reach") if tracking.ignore_limits else tr("within limits")
         percent = 100 if tracking.complete else min(int(100.0 * share), 99)
         parts = [f"{percent} % {limits}"]
         if tracking.jumps:
-            parts.append(f"{len(tracking.jumps)} jump{'s' if len(tracking.jumps) > 1 else ''} between branches")
+            parts.append(
+                tr(
+                    "{count} jump{value} between branches",
+                    count=len(tracking.jumps),
+                    value="s" if len(tracking.jumps) > 1 else "",
+                )
+            )
         return Reach(share, ", ".join(parts) + self._tilt(tracking), tracking.complete and not tracking.jumps)
 
     def _tilt(self, tracking: Tracking) -> str:
@@ -138,9 +145,13 @@ class PathPreview(QObject):
         if experiment.trajectory.orientation != "normal" or normal is None:
             return ""
         if tracking.path.rotations is None:
-            return "; this arm turns its tool as it must, not normal to the plane"
+            return tr("; this arm turns its tool as it must, not normal to the plane")
         gap = normal_gap(tracking.path, normal)
-        return f"; up to {np.degrees(gap):.1f}° from the normal, the nearest it can" if gap > _WORTH_SAYING else ""
+        return (
+            tr("; up to {gap:.1f}° from the normal, the nearest it can", gap=np.degrees(gap))
+            if gap > _WORTH_SAYING
+            else ""
+        )
 
     def _draw(self) -> None:
         if self._stage is None:

@@ -9,6 +9,7 @@ from PySide6.QtGui import QImage, QImageWriter, QPixmap
 
 from rvsim.errors import FileWriteError
 from rvsim.gui.renderers.painter import scene_image
+from rvsim.language import tr
 from rvsim.scene import Camera, Scene
 
 
@@ -31,8 +32,14 @@ def save_image(image: QImage | QPixmap, path: str | Path) -> None:
     """
     ending = Path(path).suffix.lstrip(".").lower()
     if ending not in picture_formats():
-        found = f"“.{ending}” is no picture format" if ending else "the name has no ending such as .png"
-        raise FileWriteError(path, f"{found}. Known: {', '.join(picture_formats())}")
+        found = (
+            tr("“.{ending}” is no picture format", ending=ending)
+            if ending
+            else tr("the name has no ending such as .png")
+        )
+        raise FileWriteError(
+            path, tr("{found}. Known: {picture_formats}", found=found, picture_formats=", ".join(picture_formats()))
+        )
     writer = QImageWriter(str(path), QByteArray(ending.encode()))
     picture = image.toImage() if isinstance(image, QPixmap) else image
     if not writer.write(picture):

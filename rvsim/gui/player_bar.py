@@ -10,6 +10,7 @@ from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.preferences import SETTINGS, Preferences
 from rvsim.gui.quantities import format_number
 from rvsim.gui.theme import set_role
+from rvsim.language import tr
 
 _TICKS = 10_000
 _NARROWEST, _SHORTEST = 320, 40  # [pixels] of the bar and of its slider
@@ -24,28 +25,28 @@ class PlayerBar(QWidget):
         self.setObjectName("player_bar")
         self._motion, self._preferences = motion, preferences
         self._least = 0  # [pixels] that signs, slider, speed and loop need
-        self.play = self._button("play_button", "▶ Play", "Play or pause (F5)", motion.toggle)
-        self.stop = self._button("stop_button", "■ Stop", "Stop and go back to the beginning", motion.stop)
+        self.play = self._button("play_button", "▶ Play", tr("Play or pause (F5)"), motion.toggle)
+        self.stop = self._button("stop_button", "■ Stop", tr("Stop and go back to the beginning"), motion.stop)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setObjectName("time_slider")
-        self.slider.setAccessibleName("Time")
+        self.slider.setAccessibleName(tr("Time"))
         self.slider.setRange(0, _TICKS)
         self.slider.setMinimumWidth(_SHORTEST)
         self.slider.setPageStep(_TICKS // 20)
         self.slider.setSingleStep(_TICKS // 200)
         self.slider.valueChanged.connect(self._on_slider)
-        self.time = QLabel("No motion yet")
+        self.time = QLabel(tr("No motion yet"))
         self.time.setObjectName("time_label")
         set_role(self.time, role="muted")
         self.speed = QComboBox()
         self.speed.setObjectName("speed_selector")
-        self.speed.setAccessibleName("Speed")
-        self.speed.setToolTip("Speed of the motion")
+        self.speed.setAccessibleName(tr("Speed"))
+        self.speed.setToolTip(tr("Speed of the motion"))
         for speed in SETTINGS["speed"].choices:
             self.speed.addItem(f"{speed:g}×", speed)
         self.speed.setCurrentIndex(self.speed.findData(preferences["speed"]))
         self.speed.currentIndexChanged.connect(self._on_speed)
-        self.loop = QCheckBox("Loop")
+        self.loop = QCheckBox(tr("Loop"))
         self.loop.setObjectName("loop_switch")
         self.loop.toggled.connect(motion.set_loop)
         row = self._row = QHBoxLayout(self)
@@ -136,7 +137,7 @@ class PlayerBar(QWidget):
     def _show_time(self, time: float) -> None:
         duration = self._motion.player.duration
         if self._motion.player.trajectory is None:
-            self.time.setText("No motion yet" if self._with_words else "")
+            self.time.setText(tr("No motion yet") if self._with_words else "")
             ticks = 0
         else:
             whole = f" / {format_number(duration, 2)}" if self._with_words else ""

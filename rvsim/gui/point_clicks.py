@@ -11,19 +11,22 @@ from rvsim.gui.quantities import display, format_number, length_kind
 from rvsim.gui.scene_view import Grabber
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.primitives import Item
 from rvsim.scene.work_plane import WorkPlane, point_items, pointer_items, work_plane_items
 
-LAYER = "point clicks"
+LAYER = tr_later("point clicks")
 _STEP = {"millimetre": 1e-3, "unit": 1e-2}  # [m] a click is rounded to
 _COARSE = 10.0  # times that with Ctrl held
 _FARTHEST = 3.0  # sizes of the arm from its base
 _HALF = 0.35  # of the square that is drawn, in sizes of the arm
-_BEGIN = "Click in the scene: each click adds a point on the plane that is drawn. A drag turns the view, Esc ends."
-_GO_ON = "Click the next one; Ctrl+Z takes it back, Esc ends."
-_EDGE_ON = "Seen from here the working plane is a line, or behind you: turn the view, then click."
-_FAR = "That is far beyond the arm's reach: turn the view until the working plane is seen more from its side."
+_BEGIN = tr_later(
+    "Click in the scene: each click adds a point on the plane that is drawn. A drag turns the view, Esc ends."
+)
+_GO_ON = tr_later("Click the next one; Ctrl+Z takes it back, Esc ends.")
+_EDGE_ON = tr_later("Seen from here the working plane is a line, or behind you: turn the view, then click.")
+_FAR = tr_later("That is far beyond the arm's reach: turn the view until the working plane is seen more from its side.")
 
 
 class PointClicks(QObject):
@@ -149,7 +152,7 @@ class PointClicks(QObject):
         before = self._session.experiment
         self.picked.emit(point)
         if self._session.experiment is not before:  # else it has been said why not
-            self._session.say(f"Point at {self.text(point)}. {_GO_ON}")
+            self._session.say(tr("Point at {text}. {go_on}", text=self.text(point), go_on=_GO_ON))
 
     # --- inside ----------------------------------------------------------------------------------------------------
 

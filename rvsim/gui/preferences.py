@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 
 from PySide6.QtCore import QByteArray, QObject, QSettings, Signal
 
+from rvsim.language import tr_later
+
 
 class Setting(NamedTuple):
     """One setting: its default, and the values it may have (none: any of the default's type)."""
@@ -31,7 +33,7 @@ SETTINGS: dict[str, Setting] = {
     "live": Setting(True),
     "arm_follows": Setting(True),
     "all_ghosts": Setting(True),
-    "branch_order": Setting("within limits, least motion, largest margin"),
+    "branch_order": Setting(tr_later("within limits, least motion, largest margin")),
     "presentation": Setting(False),
     "show_plots": Setting(False),
     "plots": Setting("q,qd,deviation"),

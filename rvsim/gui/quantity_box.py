@@ -12,6 +12,7 @@ from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate_in
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number, without_unit
+from rvsim.language import tr
 
 _LONGEST = 400  # characters: more than any number or pose; ten million that are pasted must not be laid out
 _MARGINS = 4  # [pixels] that the line edit keeps left and right of its text
@@ -178,15 +179,34 @@ class QuantityBox(QDoubleSpinBox):
         shown = display(self._kind, self._preferences)
         lower, upper = self._lower * shown.factor, self._upper * shown.factor
         if not math.isfinite(value) or abs(value) > 1e9:
-            return f"{self._title}: {value:g} is too large for an arm."
+            return tr("{title}: {value:g} is too large for an arm.", title=self._title, value=value)
         if lower - 1e-9 <= value <= upper + 1e-9:
             return ""
         texts = [format_number(number, shown.decimals) + shown.suffix for number in (value, lower, upper)]
         if math.isinf(self._upper):
-            return f"{self._title}: {texts[0]} is below {texts[1]}. {self._limits_hint}".rstrip()
+            return tr(
+                "{title}: {texts} is below {texts2}. {limits_hint}",
+                title=self._title,
+                texts=texts[0],
+                texts2=texts[1],
+                limits_hint=self._limits_hint,
+            ).rstrip()
         if math.isinf(self._lower):
-            return f"{self._title}: {texts[0]} is above {texts[2]}. {self._limits_hint}".rstrip()
-        return f"{self._title}: {texts[0]} lies outside {texts[1]} … {texts[2]}. {self._limits_hint}".rstrip()
+            return tr(
+                "{title}: {texts} is above {texts2}. {limits_hint}",
+                title=self._title,
+                texts=texts[0],
+                texts2=texts[2],
+                limits_hint=self._limits_hint,
+            ).rstrip()
+        return tr(
+            "{title}: {texts} lies outside {texts2} … {texts3}. {limits_hint}",
+            title=self._title,
+            texts=texts[0],
+            texts2=texts[1],
+            texts3=texts[2],
+            limits_hint=self._limits_hint,
+        ).rstrip()
 
     # --- keys and wheel --------------------------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from PySide6.QtWidgets import QMenu, QWidget
 
 from rvsim.gui.preferences import Preferences
+from rvsim.language import tr
 
 _MOST = 8
 
@@ -33,7 +34,7 @@ class RecentFiles:
 
     def menu(self, parent: QWidget, open_file: Callable[[Path], object]) -> QMenu:
         """A menu that is filled when it is about to be seen."""
-        menu = QMenu("Open recent", parent)
+        menu = QMenu(tr("Open recent"), parent)
         menu.setObjectName("recent_menu")
         menu.setToolTipsVisible(True)
         menu.aboutToShow.connect(lambda: self.fill(menu, open_file))
@@ -45,12 +46,16 @@ class RecentFiles:
         for number, file in enumerate(self.files, 1):
             there = _exists(file)
             name = file.name.replace("&", "&&")
-            action = menu.addAction(f"&{number}  {name}" if there else f"&{number}  {name} (not there any more)")
+            action = menu.addAction(
+                f"&{number}  {name}"
+                if there
+                else tr("&{number}  {name} (not there any more)", number=number, name=name)
+            )
             action.setToolTip(str(file))
             action.setEnabled(there)
             action.triggered.connect(lambda _=False, file=file: open_file(file))
         if not self.files:
-            menu.addAction("No session has been saved yet").setEnabled(False)
+            menu.addAction(tr("No session has been saved yet")).setEnabled(False)
 
 
 def _exists(file: Path) -> bool:

@@ -15,8 +15,9 @@ from rvsim.gui.autosave import Leftover, leftovers
 from rvsim.gui.document import Document
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
+from rvsim.language import tr, tr_later
 
-_UNREADABLE = "a copy that cannot be read"
+_UNREADABLE = tr_later("a copy that cannot be read")
 
 
 def offer_recovery(document: Document, window: QWidget) -> None:
@@ -32,20 +33,20 @@ class RecoveryDialog(QDialog):
     def __init__(self, document: Document, left: Sequence[Leftover], parent: QWidget) -> None:
         super().__init__(parent)
         self.setObjectName("recovery_dialog")
-        self.setWindowTitle("Recover")
+        self.setWindowTitle(tr("Recover"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._document = document
         told = sorted(((_words(one), one) for one in left), key=lambda pair: _UNREADABLE in pair[0])
         self._left = [one for _, one in told]
-        title = QLabel("rvsim ended without being closed. Your work is still here.")
+        title = QLabel(tr("rvsim ended without being closed. Your work is still here."))
         title.setWordWrap(True)
         set_role(title, role="title")
-        words = QLabel("Choose what to go on with. Your files are as you last saved them: nothing is replaced yet.")
+        words = QLabel(tr("Choose what to go on with. Your files are as you last saved them: nothing is replaced yet."))
         words.setWordWrap(True)
         set_role(words, role="muted")
         self.list = QListWidget()
         self.list.setObjectName("recovery_list")
-        self.list.setAccessibleName("What can be recovered")
+        self.list.setAccessibleName(tr("What can be recovered"))
         self.list.setStyleSheet("QListWidget::item { padding: 6px 8px; }")
         self.list.addItems([words for words, _ in told])
         self.list.currentTextChanged.connect(self._show_chosen)
@@ -60,11 +61,11 @@ class RecoveryDialog(QDialog):
         self.resize(480, 320)
 
     def _buttons(self) -> QHBoxLayout:
-        tip = "Throw this copy away; a file that you saved stays"
-        self.delete_button = button("recovery_delete", "Delete copy", tip, self._delete)
-        self.later_button = button("recovery_later", "Not now", "Ask again at the next start", self.close)
-        tip = "Go on with this copy"
-        self.recover_button = button("recovery_recover", "Recover", tip, self._recover, primary=True)
+        tip = tr("Throw this copy away; a file that you saved stays")
+        self.delete_button = button("recovery_delete", tr("Delete copy"), tip, self._delete)
+        self.later_button = button("recovery_later", tr("Not now"), tr("Ask again at the next start"), self.close)
+        tip = tr("Go on with this copy")
+        self.recover_button = button("recovery_recover", tr("Recover"), tip, self._recover, primary=True)
         self.recover_button.setDefault(True)
         row = QHBoxLayout()
         row.addWidget(self.delete_button)
@@ -104,7 +105,7 @@ class RecoveryDialog(QDialog):
 
 
 def _words(leftover: Leftover) -> str:
-    name = leftover.original.stem if leftover.original else "Untitled"
+    name = leftover.original.stem if leftover.original else tr("Untitled")
     when = datetime.fromtimestamp(leftover.when).strftime("%Y-%m-%d %H:%M")
     try:
         arm = load_session(leftover.file).state.experiment.robot.title

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from rvsim.gui.renderers.base import Renderer
 from rvsim.gui.scene_overlay import CornerAxes, ZoomBox
+from rvsim.language import tr
 from rvsim.scene import Camera, Scene
 from rvsim.scene.camera_moves import blended, framed, same_view
 from rvsim.scene.picking import point_under
@@ -84,8 +85,8 @@ class SceneView(QWidget):
     def __init__(self, renderer_factory: Callable[[QWidget], Renderer], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("scene_view")
-        self.setAccessibleName("Scene")
-        self.setAccessibleDescription("The arm. Arrow keys turn the view, plus and minus zoom, F shows everything.")
+        self.setAccessibleName(tr("Scene"))
+        self.setAccessibleDescription(tr("The arm. Arrow keys turn the view, plus and minus zoom, F shows everything."))
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(160, 120)
         self.animated = True

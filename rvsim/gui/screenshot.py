@@ -16,6 +16,7 @@ from rvsim.gui.main_window import MainWindow
 from rvsim.gui.picture import save_image
 from rvsim.lab.lines import line_presets
 from rvsim.lab.named_paths import path_names
+from rvsim.language import tr
 
 _SIZE = (1366, 768)
 _STATES = ("home", "line", "line-source", "arm")
@@ -35,7 +36,7 @@ def save_screenshot(window: MainWindow, options: argparse.Namespace) -> int:
         _settle(300)
         save_image(window.picture(), Path(options.screenshot))
     except (RvsimError, OSError) as problem:
-        print(f"rvsim: {problem}", file=sys.stderr)
+        print(tr("rvsim: {problem}", problem=problem), file=sys.stderr)
         return 2
     print(options.screenshot)
     return 0
@@ -51,13 +52,13 @@ def _set_up(window: MainWindow, state: str) -> None:
     if state in ("line", "line-source"):
         presets = line_presets(window.session.robot)
         line = presets[-1 if state == "line-source" else 0].task()
-        window.session.edit("Line", replace(experiment, line=line))
+        window.session.edit(tr("Line"), replace(experiment, line=line))
         window.tracker.track_line()
     else:
         known = path_names(window.session.robot)
         if state not in known:
             raise UnknownNameError("state", state, (*_STATES, *known))
-        window.session.edit("Trajectory", replace(experiment, trajectory=TrajectoryTask(state)))
+        window.session.edit(tr("Trajectory"), replace(experiment, trajectory=TrajectoryTask(state)))
         window.tracker.track_trajectory()
     while window.tracker.busy:
         _settle(20)
@@ -86,7 +87,7 @@ def _wait(holds: Callable[[], bool]) -> None:
         if holds():
             return
         _settle(20)
-    raise DeviceError(_VIRTUAL, "the virtual arm did not do what it was told", "Try again.")
+    raise DeviceError(_VIRTUAL, tr("the virtual arm did not do what it was told"), tr("Try again."))
 
 
 def _settle(milliseconds: int) -> None:

@@ -13,6 +13,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from rvsim.errors import RvsimError
 from rvsim.gui.served_wire import ServedWire
 from rvsim.gui.session import Session
+from rvsim.language import tr
 
 if TYPE_CHECKING:
     from rvsim.device.link.serve import Server
@@ -26,8 +27,8 @@ _WATCH_MS = 100
 
 def ways() -> dict[str, str]:
     """What this system can: Windows has no pseudo-terminals."""
-    tcp = {"tcp": "TCP on this computer"}
-    return tcp if sys.platform == "win32" else {"pty": "Pseudo-terminal (a serial port)", **tcp}
+    tcp = {"tcp": tr("TCP on this computer")}
+    return tcp if sys.platform == "win32" else {"pty": tr("Pseudo-terminal (a serial port)"), **tcp}
 
 
 class ServedArm(QObject):
@@ -96,7 +97,9 @@ class ServedArm(QObject):
             return
         self._arm, self._wire = arm, wire
         self._timer.start()
-        self._session.say(f"A virtual arm is waiting at {self.address}. What moves it is shown as a ghost.")
+        self._session.say(
+            tr("A virtual arm is waiting at {address}. What moves it is shown as a ghost.", address=self.address)
+        )
         self.changed.emit()
 
     def end(self) -> None:
@@ -113,4 +116,6 @@ class ServedArm(QObject):
         if self._server is not None and not self._server.running:
             problem = self._server.problem
             self.end()
-            self._session.say(f"The virtual arm is not served any more. {problem}".strip(), "warning")
+            self._session.say(
+                tr("The virtual arm is not served any more. {problem}", problem=problem).strip(), "warning"
+            )

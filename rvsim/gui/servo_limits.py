@@ -6,6 +6,7 @@ import numpy as np
 
 from rvsim.errors import RobotDefinitionError
 from rvsim.experiment import LimitViolation
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.servos import within_servos
@@ -54,8 +55,16 @@ def narrowing_sentence(wide: Robot, narrow: Robot) -> str:
     changed = np.flatnonzero((wide.limits != narrow.limits).any(axis=1)).tolist()
     if not changed:
         return ""
-    parts = (f"{wide.joint_names[j]} {_span(narrow, j)} instead of {_span(wide, j)}" for j in changed)
-    return f"While it is connected its servos set the limits: {', '.join(parts)}."
+    parts = (
+        tr(
+            "{joint_names} {span} instead of {span2}",
+            joint_names=wide.joint_names[j],
+            span=_span(narrow, j),
+            span2=_span(wide, j),
+        )
+        for j in changed
+    )
+    return tr("While it is connected its servos set the limits: {parts}.", parts=", ".join(parts))
 
 
 def _span(robot: Robot, joint: int) -> str:

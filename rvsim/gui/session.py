@@ -12,6 +12,7 @@ from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from rvsim.experiment import Experiment, LimitViolation, limit_violations
 from rvsim.gui.servo_limits import ServoLimits
+from rvsim.language import tr
 from rvsim.motion import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -166,8 +167,8 @@ class Session(QObject):
             servos = [one for one in violations if self.servo_limits.holds(self.robot, one)]
             if servos:
                 names = ", ".join(self.robot.joint_names[one.joint] for one in servos)
-                return f"Not moved: the connected arm’s servos do not reach that ({names})."
-        return f"Not moved: outside the limits of {names}. Switch “Ignore limits” on to go there."
+                return tr("Not moved: the connected arm’s servos do not reach that ({names}).", names=names)
+        return tr("Not moved: outside the limits of {names}. Switch “Ignore limits” on to go there.", names=names)
 
     def show_moment(self, q: ArrayLike, text: str, motion: int) -> None:
         """Show a moment of a motion. All moments of the same number in a row are one undo step, back to the first.
@@ -177,7 +178,7 @@ class Session(QObject):
         if not np.array_equal(q, self.q):
             self._showing_moment = True
             try:
-                self._change(text, self._experiment.at(q), self._moment_key(f"motion {motion}"))
+                self._change(text, self._experiment.at(q), self._moment_key(tr("motion {motion}", motion=motion)))
             finally:
                 self._showing_moment = False
 
@@ -193,7 +194,7 @@ class Session(QObject):
         self._left[self.robot.name] = self.at_rest
         left = self._left.get(robot.name)
         following = left if left and left.robot is robot else self._make_experiment(robot)
-        self.edit(f"Take the {robot.title}", following.with_notes(self._experiment.notes))
+        self.edit(tr("Take the {title}", title=robot.title), following.with_notes(self._experiment.notes))
 
     def fresh(self, robot: Robot) -> Experiment:
         """An arm as it is taken for the first time."""

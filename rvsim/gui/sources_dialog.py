@@ -17,6 +17,7 @@ from rvsim.gui.widgets import button, combo
 from rvsim.lab.sources.experiments import SOURCE_TITLES, experiment_of
 from rvsim.lab.sources.reproduce import KeyedReproduction, Reproduction, reproduction_parts, reproduction_text
 from rvsim.lab.sources.reproduction_texts import reproduction_csv, reproduction_latex, row_sentence
+from rvsim.language import tr
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -33,7 +34,7 @@ class SourcesDialog(QDialog):
         super().__init__(window)
         self._window = window
         self.setObjectName("sources_dialog")
-        self.setWindowTitle("The sources' experiments")
+        self.setWindowTitle(tr("The sources' experiments"))
         self.model = SourcesModel(window.preferences)
         self.filter = SourcesFilter(self.model)
         self.table = sources_view(self.filter)
@@ -52,17 +53,17 @@ class SourcesDialog(QDialog):
 
     def _make_choices(self) -> None:
         titles = {key: f"{key}  {title}" for key, title in SOURCE_TITLES.items()}
-        self.sources = combo("sources_source", "Source", {"": "All sources", **titles})
+        self.sources = combo("sources_source", tr("Source"), {"": tr("All sources"), **titles})
         self.sources.currentIndexChanged.connect(lambda _: self._narrow())
         self.words = QLineEdit()
         self.words.setObjectName("sources_words")
-        self.words.setPlaceholderText("Find: a program, a word, a verdict")
-        self.words.setAccessibleName("Find in the table")
+        self.words.setPlaceholderText(tr("Find: a program, a word, a verdict"))
+        self.words.setAccessibleName(tr("Find in the table"))
         self.words.setClearButtonEnabled(True)
         self.words.textChanged.connect(lambda _: self._narrow())
         formats = {"text": reproduction_text, "CSV": reproduction_csv, "LaTeX": reproduction_latex}
         makers = {name: (lambda make=make: make(self._plain_rows())) for name, make in formats.items()}
-        self.copy = CopyButton("sources_copy", "the table", makers, self._window.session)
+        self.copy = CopyButton("sources_copy", tr("the table"), makers, self._window.session)
 
     def _make_foot(self) -> None:
         self.sentence = wrapped_label()
@@ -73,12 +74,12 @@ class SourcesDialog(QDialog):
         self.progress.setRange(0, _STEPS)
         self.progress.setTextVisible(False)
         self.progress.setFixedHeight(4)
-        self.progress.setAccessibleName("The numbers are being worked out")
-        self.keep = QCheckBox("Keep this table open")
+        self.progress.setAccessibleName(tr("The numbers are being worked out"))
+        self.keep = QCheckBox(tr("Keep this table open"))
         self.keep.setObjectName("sources_keep")
-        tip = "Take the arm, the pose and the path of this row, and bring the panel that shows it to the front"
-        self.show_button = button("sources_show", "Show in the window", tip, self.show_row, primary=True)
-        self.close_button = button("sources_close", "Close", "Esc", self.reject)
+        tip = tr("Take the arm, the pose and the path of this row, and bring the panel that shows it to the front")
+        self.show_button = button("sources_show", tr("Show in the window"), tip, self.show_row, primary=True)
+        self.close_button = button("sources_close", tr("Close"), "Esc", self.reject)
 
     def _lay_out(self) -> None:
         above, below = QHBoxLayout(), QHBoxLayout()
@@ -175,9 +176,9 @@ class SourcesDialog(QDialog):
         if chosen is not None:
             self.sentence.setText(row_sentence(chosen.row, experiment_of(chosen.key)))
         elif self.worker.busy:
-            self.sentence.setText("Working the numbers out once more …")
+            self.sentence.setText(tr("Working the numbers out once more …"))
         else:
-            self.sentence.setText("Nothing here has these words.")
+            self.sentence.setText(tr("Nothing here has these words."))
 
     def _plain_rows(self) -> tuple[Reproduction, ...]:
         return tuple(keyed.row for keyed in self.filter.rows)

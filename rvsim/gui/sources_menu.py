@@ -11,6 +11,7 @@ from rvsim.gui.sources_dialog import sources_dialog
 from rvsim.gui.sources_show import show_experiment
 from rvsim.lab.sources.experiment import SourceExperiment
 from rvsim.lab.sources.experiments import SOURCE_TITLES, experiments
+from rvsim.language import tr
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -21,12 +22,12 @@ _NEW_GROUPS = ("000-P1", "004-4.7")  # experiments with which a menu of their ow
 
 def make_sources_menu(window: MainWindow) -> QMenu:
     """ "All experiments…" and a menu a source; an entry sets the window up for its experiment."""
-    menu = QMenu("&Sources", window)
+    menu = QMenu(tr("&Sources"), window)
     menu.setObjectName("sources_menu")
-    every = menu.addAction("All experiments…")
+    every = menu.addAction(tr("All experiments…"))
     every.setObjectName("action_all_experiments")
     every.setShortcut(KEYS)
-    every.setStatusTip("Every number that the sources print, what its formula gives, and what is right")
+    every.setStatusTip(tr("Every number that the sources print, what its formula gives, and what is right"))
     every.triggered.connect(lambda _checked=False: sources_dialog(window).show_source(""))
     menu.addSeparator()
     for source, title in SOURCE_TITLES.items():
@@ -37,9 +38,9 @@ def make_sources_menu(window: MainWindow) -> QMenu:
 def _menu_of(window: MainWindow, source: str, title: str) -> QMenu:
     menu = QMenu(f"{source}  {title}", window)
     menu.setObjectName(f"source_{source}_menu")
-    table = menu.addAction("Its numbers…")
+    table = menu.addAction(tr("Its numbers…"))
     table.setObjectName(f"action_source_{source}_numbers")
-    table.setStatusTip(f"The numbers of source {source} as a table")
+    table.setStatusTip(tr("The numbers of source {source} as a table", source=source))
     table.triggered.connect(lambda _checked=False: sources_dialog(window).show_source(source))
     menu.addSeparator()
     groups = _groups(source)

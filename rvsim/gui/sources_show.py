@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QToolButton
 
 from rvsim.gui.panels.inspect_source import SourcePage
 from rvsim.lab.sources.experiment import Move, Setup, SourceExperiment
+from rvsim.language import tr
 from rvsim.motion.trajectory import joint_move
 from rvsim.robot import Robot
 from rvsim.robot.robot import NO_TOOL
@@ -25,17 +26,19 @@ def show_experiment(window: MainWindow, experiment: SourceExperiment) -> None:
     window.tracker.cancel()
     _set_up(window, experiment)
     setup = experiment.setup
-    window.session.say(f"Source {experiment.source}, {experiment.item}: {experiment.shows}")
+    window.session.say(
+        tr("Source {source}, {item}: {shows}", source=experiment.source, item=experiment.item, shows=experiment.shows)
+    )
     _prepare_pages(window, setup)
     window.docks.show_panel(setup.panel)
-    _run(window, setup, f"Source {experiment.source}, {experiment.item}")
+    _run(window, setup, tr("Source {source}, {item}", source=experiment.source, item=experiment.item))
 
 
 def _set_up(window: MainWindow, experiment: SourceExperiment) -> None:
     session, stack = window.session, window.session.undo_stack
-    stack.beginMacro(f"Show source {experiment.source}, {experiment.item}")
+    stack.beginMacro(tr("Show source {source}, {item}", source=experiment.source, item=experiment.item))
     session.use_robot(_bare(window.library[experiment.robot]))
-    session.edit("Set up", experiment.setup.applied(session.experiment))
+    session.edit(tr("Set up"), experiment.setup.applied(session.experiment))
     stack.endMacro()
 
 

@@ -15,6 +15,7 @@ from rvsim.gui.theme import THEMES
 from rvsim.lab.sources.experiments import SOURCE_TITLES, experiment_of
 from rvsim.lab.sources.reproduce import KeyedReproduction
 from rvsim.lab.sources.reproduction_texts import COLUMNS, row_sentence, shown_cells
+from rvsim.language import tr
 
 Index = QModelIndex | QPersistentModelIndex
 _TOP = QModelIndex()
@@ -141,7 +142,7 @@ class SourcesFilter(QSortFilterProxyModel):
 
 def sources_view(model: SourcesFilter) -> QTableView:
     """The table, sorted as the sources have it until a header is clicked."""
-    table = plain_table("sources_table", "The numbers of the sources", model)
+    table = plain_table("sources_table", tr("The numbers of the sources"), model)
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
     table.setWordWrap(False)

@@ -37,6 +37,7 @@ from rvsim.gui.target_solution import (
 )
 from rvsim.gui.workers import LatestWorker
 from rvsim.kinematics import DEFAULT_ORDER, ORDER_CRITERIA, Branch, branch_labels, forward_kinematics
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -223,11 +224,11 @@ class TargetControl(QObject):
         self._wanted = None
         self._refresh(self._stale_target())
         if self.session.experiment.target is not None:
-            self._put(replace(self.session.experiment, target=None), "Target at the tool")
+            self._put(replace(self.session.experiment, target=None), tr("Target at the tool"))
 
     def go_to(self, branch: Branch) -> None:
         """Let the arm go to a branch."""
-        self._go(branch.q, f"Go to “{branch.label}”")
+        self._go(branch.q, tr("Go to “{label}”", label=branch.label))
 
     def solve_now(self) -> None:
         """Solve, and go to the best branch by the order."""
@@ -241,7 +242,7 @@ class TargetControl(QObject):
     def accept_nearest(self) -> None:
         """Go to the nearest pose that can be reached, and want that."""
         if self.nearest is not None:
-            self._go(self.nearest.q, "Accept the nearest pose")
+            self._go(self.nearest.q, tr("Accept the nearest pose"))
 
     def light(self, name: str | None) -> None:
         """Light the ghost of a branch, by its name, or none."""
@@ -278,9 +279,9 @@ class TargetControl(QObject):
 
     def _creeping_sentence(self, answer: Answer) -> str:
         if not answer.missed:
-            return f"{self._ended(answer, self._label)} Others go on: choose one in the table."
+            return tr("{ended} Others go on: choose one in the table.", ended=self._ended(answer, self._label))
         asked = answer.failure is not None or answer.numeric is not None
-        return self.sentence if asked else "Out of reach: the arm follows along the edge."
+        return self.sentence if asked else tr("Out of reach: the arm follows along the edge.")
 
     def _on_rest(self) -> None:
         """The hand rests: time to know why not, and what is nearest."""
@@ -290,12 +291,12 @@ class TargetControl(QObject):
             self.changed.emit()
 
     def _changed_branch(self, answer: Answer, before: str) -> str:
-        return f"{self._ended(answer, before)} The arm went over to “{self._label}”."
+        return tr("{ended} The arm went over to “{label}”.", ended=self._ended(answer, before), label=self._label)
 
     def _ended(self, answer: Answer, before: str) -> str:
         old = [branch for branch in answer.branches if branch.label == before]
         words = limit_words(answer.question.robot, old[0], self._preferences) if old else ""
-        return f"The branch “{before}” ends here{words and f': {words}'}."
+        return tr("The branch “{before}” ends here{value}.", before=before, value=words and f": {words}")
 
     def _go(self, q: ArrayLike, text: str) -> None:
         experiment = self.session.experiment

@@ -11,6 +11,7 @@ from rvsim.gui.stage import Stage
 from rvsim.gui.target import TargetControl
 from rvsim.gui.target_solution import Answer
 from rvsim.kinematics import forward_kinematics
+from rvsim.language import tr
 from rvsim.scene.ghosts import GHOST_KEY, Ghost, ghost_items
 from rvsim.scene.palette import ScenePalette
 from rvsim.scene.primitives import Item, Label, Labels, Polyline, Triads
@@ -65,14 +66,23 @@ class TargetScene(QObject):
         control, robot = self._control, answer.question.robot
         reached = control.nearest.T if control.nearest is not None else None
         tool = reached if reached is not None else forward_kinematics(robot, control.session.q)
-        frame = Triads(f"{GHOST_KEY}.target", control.T[None], _FRAME * robot.size, letters=False, alpha=0.9)
+        frame = Triads(
+            tr("{ghost_key}.target", ghost_key=GHOST_KEY),
+            control.T[None],
+            _FRAME * robot.size,
+            letters=False,
+            alpha=0.9,
+        )
         gap = np.stack([tool[:3, 3], control.T[:3, 3]])
         away = float(np.linalg.norm(gap[1] - gap[0])) > _AWAY
         if not (answer.missed or away):
             return ()
-        items: list[Item] = [frame, Labels(f"{GHOST_KEY}.target.name", (_target_label(control.T, palette),))]
+        items: list[Item] = [
+            frame,
+            Labels(tr("{ghost_key}.target.name", ghost_key=GHOST_KEY), (_target_label(control.T, palette),)),
+        ]
         if away:
-            items.append(Polyline(f"{GHOST_KEY}.gap", gap, palette.unreached, 2.0, dashed=True))
+            items.append(Polyline(tr("{ghost_key}.gap", ghost_key=GHOST_KEY), gap, palette.unreached, 2.0, dashed=True))
         return tuple(items)
 
 

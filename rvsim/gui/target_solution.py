@@ -28,6 +28,7 @@ from rvsim.kinematics.inverse.nearest import nearest_configuration
 from rvsim.kinematics.inverse.result import in_order
 from rvsim.kinematics.inverse.solve import attempt
 from rvsim.lab.sentences import Units, failure_sentence
+from rvsim.language import tr_later
 from rvsim.motion.continuity import continuous
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -35,22 +36,22 @@ from rvsim.spatial import pose_difference
 
 CLOSED_FORM = "closed"
 SOLVER_TITLES = {
-    CLOSED_FORM: "Closed form, all branches",
-    "newton": "Newton–Raphson",
-    "dls": "Damped least squares",
-    "lm": "Levenberg–Marquardt",
-    "bfgs": "BFGS, gradient projection",
+    CLOSED_FORM: tr_later("Closed form, all branches"),
+    "newton": tr_later("Newton–Raphson"),
+    "dls": tr_later("Damped least squares"),
+    "lm": tr_later("Levenberg–Marquardt"),
+    "bfgs": tr_later("BFGS, gradient projection"),
 }
 TASK_TITLES = {
-    "pose": "Full pose",
-    "position+pitch+roll": "Position, pitch and roll: keep the cup level",
-    "position+yaw": "Position and yaw",
-    "position": "Position only",
-    "position, wrist kept": "Wrist kept as it is relative to the arm",
-    "x,y": "Position in the plane, x and y",
+    "pose": tr_later("Full pose"),
+    "position+pitch+roll": tr_later("Position, pitch and roll: keep the cup level"),
+    "position+yaw": tr_later("Position and yaw"),
+    "position": tr_later("Position only"),
+    "position, wrist kept": tr_later("Wrist kept as it is relative to the arm"),
+    "x,y": tr_later("Position in the plane, x and y"),
 }
 _KEPT = {"position, wrist kept": (3, 4)}  # the joints that a task leaves as they are
-PLACES = ("position", "position, wrist kept", "x,y")  # tasks that leave the whole orientation open
+PLACES = ("position", tr_later("position, wrist kept"), "x,y")  # tasks that leave the whole orientation open
 _CREEPING_STEPS = 8  # of Newton's method, a tenth of a millisecond each
 LEAP = 0.25  # [rad, m] an arm that was left behind goes no further back to the target at once
 _LANDED = 0.02  # [rad, m] what creeping leaves of the way to a branch: it goes slowly where it is singular
@@ -259,10 +260,10 @@ def nearest_pose(answer: Answer, units: Units) -> NearestPose:
     return NearestPose(q, T, sentence, float(left.position), float(left.angle))
 
 
-_NOT_ASKED = "Out of reach."
+_NOT_ASKED = tr_later("Out of reach.")
 _AT_ONCE = {
-    "reach": "The place is out of reach.",
-    "orientation": "The place can be reached, but not in this orientation.",
+    "reach": tr_later("The place is out of reach."),
+    "orientation": tr_later("The place can be reached, but not in this orientation."),
 }
 
 

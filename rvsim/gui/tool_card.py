@@ -15,6 +15,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number, half_turn_up, length_kind
 from rvsim.gui.session import Session
 from rvsim.kinematics import forward_kinematics
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rpy_from_rotation
 
@@ -46,7 +47,7 @@ class ToolCard(QLabel):
         self._session, self._preferences = session, preferences
         self._rows: tuple[_Row, ...] = ()
         self.setObjectName("tool_card")
-        self.setAccessibleName("Tool pose")
+        self.setAccessibleName(tr("Tool pose"))
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setTextFormat(Qt.TextFormat.PlainText)
         session.changed.connect(self._on_changed)

@@ -11,6 +11,7 @@ from rvsim.experiment import Experiment
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.inverse import Failure, inverse_kinematics, inverse_tasks
 from rvsim.lab.sentences import Units, angle_text, failure_sentence
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import pose_difference
@@ -48,7 +49,7 @@ def moved_tool(experiment: Experiment, T: FloatArray, p: FloatArray, units: Unit
         if first.failure is not None and first.failure.kind == "orientation" and "position" in known[1:]:
             return _turned_along(experiment, target, units)
     except NoClosedFormError as problem:
-        return ToolEdit(sentence=f"{problem} Set its joints instead.")
+        return ToolEdit(sentence=tr("{problem} Set its joints instead.", problem=problem))
     return ToolEdit(sentence=_reason(robot, first.failure, units))
 
 
@@ -59,7 +60,7 @@ def turned_tool(experiment: Experiment, T: FloatArray, R: FloatArray, units: Uni
     try:
         solution = _solve(experiment, target, None)
     except NoClosedFormError as problem:
-        return ToolEdit(sentence=f"{problem} Set its joints instead.")
+        return ToolEdit(sentence=tr("{problem} Set its joints instead.", problem=problem))
     if solution.q is None:
         return ToolEdit(sentence=_reason(experiment.robot, solution.failure, units))
     return _followed(experiment.robot, solution.q, target, position_only=False)
@@ -80,7 +81,14 @@ def _followed(robot: Robot, q: FloatArray, target: FloatArray, *, position_only:
     if float(left) < _CLOSE:
         return ToolEdit(q)
     way = "moved" if position_only else "turned"
-    return ToolEdit(sentence=f"The tool cannot be {way} that way: the {robot.title} has {robot.dof} joints.")
+    return ToolEdit(
+        sentence=tr(
+            "The tool cannot be {way} that way: the {title} has {dof} joints.",
+            way=way,
+            title=robot.title,
+            dof=robot.dof,
+        )
+    )
 
 
 def _turned_along(experiment: Experiment, target: FloatArray, units: Units) -> ToolEdit:
@@ -89,14 +97,16 @@ def _turned_along(experiment: Experiment, target: FloatArray, units: Units) -> T
     if solution.q is None:
         return ToolEdit(sentence=_reason(experiment.robot, solution.failure, units))
     angle = pose_difference(forward_kinematics(experiment.robot, solution.q), target).angle
-    return ToolEdit(solution.q, f"The tool had to turn by {angle_text(float(angle), units)} to get there.")
+    return ToolEdit(
+        solution.q, tr("The tool had to turn by {angle} to get there.", angle=angle_text(float(angle), units))
+    )
 
 
 def _reason(robot: Robot, failure: Failure | None, units: Units) -> str:
     assert failure is not None, "no solution without a reason"
     sentence = failure_sentence(failure, units)
     if failure.kind == "orientation" and robot.dof < 6:
-        return f"{sentence} With {robot.dof} joints the tool's orientation is not free."
+        return tr("{sentence} With {dof} joints the tool's orientation is not free.", sentence=sentence, dof=robot.dof)
     if failure.kind == "limits":
-        return f"{sentence} Switch “Ignore limits” on to go there."
+        return tr("{sentence} Switch “Ignore limits” on to go there.", sentence=sentence)
     return sentence

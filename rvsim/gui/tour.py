@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QVBoxLayout, QWidg
 from rvsim.gui.theme import set_role
 from rvsim.gui.tour_steps import STEPS
 from rvsim.gui.widgets import button
+from rvsim.language import tr
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -148,13 +149,13 @@ class TourCard(QWidget):
         self.text.setWordWrap(True)
         set_role(self.title, role="title")
         set_role(self.number, role="muted")
-        self.never = QCheckBox("Do not show this again")
+        self.never = QCheckBox(tr("Do not show this again"))
         self.never.setObjectName("tour_never")
         self.never.setChecked(True)
-        self.skip_button = button("tour_skip", "Skip", "End the tour (Esc)", tour.end)
-        self.back_button = button("tour_back", "Back", "The step before (←)", lambda: tour.go(tour.step - 1))
+        self.skip_button = button("tour_skip", tr("Skip"), tr("End the tour (Esc)"), tour.end)
+        self.back_button = button("tour_back", tr("Back"), tr("The step before (←)"), lambda: tour.go(tour.step - 1))
         self.next_button = button(
-            "tour_next", "Next", "The next step (→)", lambda: tour.go(tour.step + 1), primary=True
+            "tour_next", tr("Next"), tr("The next step (→)"), lambda: tour.go(tour.step + 1), primary=True
         )
         for part in (self.never, self.skip_button, self.back_button, self.next_button):
             part.installEventFilter(self)  # a button would take the arrow keys for itself
@@ -187,8 +188,10 @@ class TourCard(QWidget):
         self.number.setText(f"{number + 1} of {len(STEPS)}")
         self.back_button.setEnabled(number > 0)
         self.skip_button.setVisible(not last)
-        self.next_button.setText("Done" if last else "Next")
-        self.setAccessibleName(f"Tour, step {number + 1} of {len(STEPS)}: {step.title}")
+        self.next_button.setText(tr("Done") if last else tr("Next"))
+        self.setAccessibleName(
+            tr("Tour, step {number} of {count}: {title}", number=number + 1, count=len(STEPS), title=step.title)
+        )
 
     def fitting(self) -> QSize:
         """As wide as agreed, in letters as large as they are, and as high as its text needs."""

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtWidgets import QMenu, QScrollArea, QTabBar, QWidget
 
+from rvsim.language import tr_later
+
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
 
@@ -81,48 +83,48 @@ def _help_menu(window: MainWindow) -> QRect:
 
 STEPS: tuple[Step, ...] = (
     Step(
-        "An arm to begin with",
-        "Choose one here. All that follows works for each of them, and for arms of your own.",
+        tr_later("An arm to begin with"),
+        tr_later("Choose one here. All that follows works for each of them, and for arms of your own."),
         _widgets("robot_selector"),
     ),
     Step(
-        "Move a joint",
+        tr_later("Move a joint"),
         "Drag a slider, or type a value: <b>30</b>, <b>90/4</b> and <b>pi/4 rad</b> all work. Try it now: the window "
         "stays usable. Ctrl+Z takes anything back.",
         _rows("joint_slider_1", "joint_value_1", "joint_slider_2", "joint_value_2"),
     ),
     Step(
-        "Look around",
+        tr_later("Look around"),
         "Drag turns the scene, right-drag moves it, the wheel zooms, a double click centres. With <b>G</b> you can "
         "drag the tool itself.",
         _widgets("scene_view"),
     ),
     Step(
-        "Follow a line",
+        tr_later("Follow a line"),
         "Press this. Below it, <b>Result</b> then says how many points were reached and how exactly; where one is "
         "missed, which joint stands in the way.",
         _widgets("track_line_button", panel="path"),
     ),
     Step(
-        "Move through time",
+        tr_later("Move through time"),
         "The motion plays here: stop, drag to any moment, play it slower. <b>View › Curves</b> draws joints, speeds "
         "and torques over the same time.",
         _widgets("play_button", "time_slider", "speed_selector"),
     ),
     Step(
-        "Ask for a pose",
+        tr_later("Ask for a pose"),
         "<b>Inverse</b> lists every way in which the arm can take a pose, works the solution out with its numbers, or "
         "says why there is none.",
-        _tab("inverse", "Inverse"),
+        _tab("inverse", tr_later("Inverse")),
     ),
     Step(
-        "Look inside",
+        tr_later("Look inside"),
         "<b>Inspect</b> shows the Jacobian, singularities, forces, dynamics and the workspace of the pose you see; "
         "<b>Model</b> its matrices and DH table.",
-        _tab("jacobian", "Inspect"),
+        _tab("jacobian", tr_later("Inspect")),
     ),
     Step(
-        "When you want to know more",
+        tr_later("When you want to know more"),
         "<b>F1</b> explains the panel that you are in, with an example to try. This tour is in the same menu.",
         _help_menu,
     ),

@@ -17,6 +17,7 @@ from rvsim.gui.session import Session
 from rvsim.gui.workers import LatestWorker
 from rvsim.lab.repairs import Offer, motion_of, path_of
 from rvsim.lab.sentences import Units, tracking_sentence
+from rvsim.language import tr
 from rvsim.motion import Path, Tracking, Trajectory, track
 from rvsim.robot import Robot
 
@@ -98,11 +99,11 @@ class PathTracker(QObject):
 
     def track_line(self) -> None:
         """Track the line of the panel, and play it."""
-        self._track("line", "Track line")
+        self._track("line", tr("Track line"))
 
     def track_trajectory(self) -> None:
         """Track the chosen trajectory, and play it."""
-        self._track("trajectory", "Track trajectory")
+        self._track("trajectory", tr("Track trajectory"))
 
     def apply(self, offer: Offer) -> None:
         """Do what a repair says: in the experiment where it stands there, else with the path alone."""
@@ -129,7 +130,7 @@ class PathTracker(QObject):
         """Track this path, "" for none, of a session that has been opened; nothing is played."""
         if kind:
             self._quiet = True
-            self._track(kind, f"Track {kind}")
+            self._track(kind, tr("Track {kind}", kind=kind))
 
     def track_again(self) -> None:
         """The last path once more, for an arm with other limits; nothing is played."""
@@ -148,7 +149,7 @@ class PathTracker(QObject):
             self._pending, self._quiet = None, False
             self._worker.cancel()
             self.busy_changed.emit(False)
-            self._session.say("Given up. What was tracked before is still there.")
+            self._session.say(tr("Given up. What was tracked before is still there."))
 
     def close(self) -> None:
         """End the worker, for the window closes."""
@@ -179,7 +180,7 @@ class PathTracker(QObject):
         elif shown is not None:
             self._motion.load(None, "")
             self._session.set_tracking(None)
-            self._session.say("Changed: track it again to see what the arm can do now.")
+            self._session.say(tr("Changed: track it again to see what the arm can do now."))
 
     @property
     def trajectory(self) -> Trajectory | None:
@@ -204,7 +205,7 @@ class PathTracker(QObject):
                 self._pending = (kind, experiment)
                 self._worker.ask(job)
                 self.busy_changed.emit(True)
-                self._session.say(f"Working out {path.samples} points …")
+                self._session.say(tr("Working out {samples} points …", samples=path.samples))
                 return
             done = job()
         except (RvsimError, OSError) as problem:

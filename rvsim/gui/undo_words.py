@@ -6,12 +6,13 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QUndoStack
 
 from rvsim.experiment import TrajectoryTask
+from rvsim.language import tr, tr_later
 
-_TURNED = "Turn the tool along the trajectory"
+_TURNED = tr_later("Turn the tool along the trajectory")
 _TRAJECTORY_EDITS = {
-    "shape": "Edit the shape of the trajectory",
-    "placement": "Place the trajectory",
-    "height": "Set the height of the drawing plane",
+    "shape": tr_later("Edit the shape of the trajectory"),
+    "placement": tr_later("Place the trajectory"),
+    "height": tr_later("Set the height of the drawing plane"),
     **dict.fromkeys(("orientation", "turn_from", "turn_to", "pitch"), _TURNED),
 }
 
@@ -26,16 +27,16 @@ class UndoWords(QObject):
         stack.redoTextChanged.connect(self._show_redo)
 
     def _show_undo(self, text: str) -> None:
-        self._undo.setText(undo_words("Undo", text))
+        self._undo.setText(undo_words(tr("Undo"), text))
 
     def _show_redo(self, text: str) -> None:
-        self._redo.setText(undo_words("Redo", text))
+        self._redo.setText(undo_words(tr("Redo"), text))
 
 
 def trajectory_words(before: TrajectoryTask, after: TrajectoryTask) -> str:
     """What was changed in a trajectory, as the text of an undo step."""
     changed = (words for name, words in _TRAJECTORY_EDITS.items() if getattr(before, name) is not getattr(after, name))
-    return next(changed, "Edit the trajectory")
+    return next(changed, tr("Edit the trajectory"))
 
 
 def undo_words(verb: str, text: str) -> str:

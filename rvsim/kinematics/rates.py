@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from rvsim.errors import SettingError, UnknownNameError
 from rvsim.kinematics.forward import forward_kinematics
 from rvsim.kinematics.jacobian import jacobian, pose_and_jacobian
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.spatial import rpy_from_rotation, zyz_from_rotation
 from rvsim.spatial.arrays import FloatArray, floats
@@ -121,7 +122,7 @@ def _euler(R: FloatArray, angles: Angles) -> _Euler:
         return _Euler(rpy[..., 2], np.hypot(R[..., 0, 0], R[..., 1, 0]), R[..., 2, 0], True)
     if angles == "zyz":
         return _Euler(zyz_from_rotation(R)[..., 0], np.hypot(R[..., 0, 2], R[..., 1, 2]), R[..., 2, 2], False)
-    raise UnknownNameError("set of angles", angles, ("rpy", "zyz"))
+    raise UnknownNameError(tr("set of angles"), angles, ("rpy", "zyz"))
 
 
 def tool_twist(robot: Robot, q: ArrayLike, qd: ArrayLike) -> FloatArray:
@@ -254,6 +255,6 @@ def row_scale(length: float) -> FloatArray:
 
 def _check(threshold: float, length: float) -> None:
     if not threshold >= 0.0:
-        raise SettingError("threshold", threshold, "0 or more")
+        raise SettingError("threshold", threshold, tr("0 or more"))
     if not length > 0.0:
         raise SettingError("length", length, "above 0")

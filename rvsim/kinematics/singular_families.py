@@ -27,6 +27,7 @@ from rvsim.kinematics.inverse.rrrp import RollAndExtend
 from rvsim.kinematics.inverse.spherical_wrist import SphericalWrist
 from rvsim.kinematics.inverse.textbook import Articulated, Cartesian, Cylindrical, Planar, Scara, Spherical
 from rvsim.kinematics.inverse.ur import ParallelAxes
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray, floats
 
@@ -67,7 +68,7 @@ class SingularFamily:
     @property
     def title(self) -> str:
         """The name with what it is, for instance "stretched singularity of the position"."""
-        return f"{self.name} singularity" + (" of the position" if self.part == "position" else "")
+        return tr("{name} singularity", name=self.name) + (tr(" of the position") if self.part == "position" else "")
 
     @property
     def formula(self) -> str:
@@ -162,7 +163,7 @@ def _straight(a2: float, forearm: float) -> float:
     return 0.0 if a2 * forearm > 0.0 else math.pi
 
 
-_ELBOW = (
+_ELBOW = tr_later(
     "The elbow is stretched or folded: the links are in line, and the {} cannot move along them. "
     "It is an edge of the reach."
 )
@@ -179,18 +180,21 @@ def _five_axis(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
         "coaxial",
         "internal",
         "pose",
-        "The tool stands upright on the base axis: the roll axis and the base axis are one, and joints 1 and 5 do the "
-        "same.",
+        tr(
+            "The tool stands upright on the base axis: the roll axis and the base axis are one, and joints 1 and 5 do "
+            "the "
+            "same."
+        ),
         r,
         tilt,
     )
     if not has_tip_on_roll_axis(terms.chain):
         return
     yield terms.family(
-        "tip on axis",
+        tr("tip on axis"),
         "internal",
         "position",
-        "The tip is on the base axis: joint 1 cannot move it sideways.",
+        tr("The tip is on the base axis: joint 1 cannot move it sideways."),
         r,
     )
     stretched = [elbow, terms.sine(3, -last[1])] if last[0] > 1e-9 else [elbow]
@@ -198,7 +202,7 @@ def _five_axis(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
         "stretched",
         "boundary",
         "position",
-        "Upper arm, forearm and hand are in line: the tip cannot move along them.",
+        tr("Upper arm, forearm and hand are in line: the tip cannot move along them."),
         *stretched,
     )
 
@@ -219,16 +223,22 @@ def _parallel_axes(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]
         "shoulder",
         "internal",
         "pose",
-        "The point where axes 5 and 6 meet is beside or on the base axis, in the plane of axes 1 and 2: it cannot move "
-        "along the shoulder's axis.",
+        tr(
+            "The point where axes 5 and 6 meet is beside or on the base axis, in the plane of axes 1 and 2: it cannot "
+            "move "
+            "along the shoulder's axis."
+        ),
         terms.reach("r_w", formula, links),
     )
     yield terms.family(
         "wrist",
         "internal",
         "pose",
-        "Axis 6 is parallel to axes 2, 3 and 4: it turns the tool as they do, and a turn about an axis square to axes "
-        "5 and 6 is lost.",
+        tr(
+            "Axis 6 is parallel to axes 2, 3 and 4: it turns the tool as they do, and a turn about an axis square to "
+            "axes "
+            "5 and 6 is lost."
+        ),
         terms.sine(4),
     )
 
@@ -237,21 +247,24 @@ def _spherical_wrist(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamil
     a, d = terms.a, terms.d
     forearm, lift = math.hypot(a[2], d[3]), math.atan2(-d[3], a[2])
     yield terms.family(
-        "elbow", "boundary", "pose", _ELBOW.format("wrist centre"), terms.sine(2, _straight(a[1], forearm) - lift)
+        "elbow", "boundary", "pose", _ELBOW.format(tr("wrist centre")), terms.sine(2, _straight(a[1], forearm) - lift)
     )
     yield terms.family(
         "shoulder",
         "internal",
         "pose",
-        "The wrist centre is over the base axis: joint 1 cannot move it sideways.",
+        tr("The wrist centre is over the base axis: joint 1 cannot move it sideways."),
         terms.reach("r_w", "", [(a[1], 0.0), (forearm, lift)]),
     )
     yield terms.family(
         "wrist",
         "internal",
         "pose",
-        "Axes 4 and 6 are one line: both turn the tool in the same way, and a turn about an axis square to axes 5 and "
-        "6 is lost.",
+        tr(
+            "Axes 4 and 6 are one line: both turn the tool in the same way, and a turn about an axis square to axes 5 "
+            "and "
+            "6 is lost."
+        ),
         terms.sine(4),
     )
 
@@ -267,7 +280,7 @@ def _coaxial_extension(terms: _Terms) -> Iterator[SingularFamily]:
     """Only where axis 3 can come upon axis 1: upright, and beside the shoulder by a2 = ±a1."""
     side = math.copysign(1.0, -terms.a[0] * terms.a[1])
     half = Term(r"\sin\tfrac{1}{2}\theta_2", r"\sin\tfrac{1}{2}\theta_2", False, lambda q: _half(terms, q, side))
-    sentence = "The roll axis and the base axis are one: joints 1 and 3 do the same."
+    sentence = tr("The roll axis and the base axis are one: joints 1 and 3 do the same.")
     yield terms.family("coaxial", "internal", "pose", sentence, half)
 
 
@@ -284,11 +297,11 @@ def _extension(terms: _Terms, part: FamilyPart, across: float, joint: int, fixed
         theta2 = terms.chain.inner(q)[..., 1]
         return np.asarray(terms.a[0] + across * np.cos(theta2) + length.of(q) * np.sin(theta2))
 
-    sentence = "The tip is on the base axis, or in the plane of axes 1 and 2: joint 1 cannot move it sideways."
-    yield terms.family("tip on axis", "internal", part, sentence, Term("r", "r", True, out))
+    sentence = tr("The tip is on the base axis, or in the plane of axes 1 and 2: joint 1 cannot move it sideways.")
+    yield terms.family(tr("tip on axis"), "internal", part, sentence, Term("r", "r", True, out))
     kind: FamilyKind = "internal" if is_zero(across) else "boundary"
-    sentence = "The arm is drawn in to its shoulder: joint 2 moves the tip only along the extension, or not at all."
-    yield terms.family("zero extension", kind, part, sentence, length)
+    sentence = tr("The arm is drawn in to its shoulder: joint 2 moves the tip only along the extension, or not at all.")
+    yield terms.family(tr("zero extension"), kind, part, sentence, length)
 
 
 def _spherical(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
@@ -306,7 +319,7 @@ def _scara(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
     theta = float(terms.chain.theta[2])
     link = complex(terms.a[1]) + terms.a[2] * complex(math.cos(theta), math.sin(theta))
     zero = _straight(terms.a[0], 1.0) - math.atan2(link.imag, link.real)
-    yield terms.family("elbow", "boundary", "pose", _ELBOW.format("tool axis"), terms.sine(1, zero))
+    yield terms.family("elbow", "boundary", "pose", _ELBOW.format(tr("tool axis")), terms.sine(1, zero))
 
 
 def _articulated(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
@@ -317,7 +330,7 @@ def _articulated(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
         "shoulder",
         "internal",
         "pose",
-        "The tip is over the base axis: joint 1 cannot move it sideways.",
+        tr("The tip is over the base axis: joint 1 cannot move it sideways."),
         terms.reach("r", "", [(terms.a[1], 0.0), (forearm, lift)]),
     )
 
@@ -326,8 +339,8 @@ def _cylindrical(terms: _Terms, form: ClosedForm) -> Iterator[SingularFamily]:
     assert isinstance(form, Cylindrical)
     fixed = float(form.origin[:2] @ form.outward[:2])
     out = Term("r", "r", True, lambda q: terms.chain.inner(q)[..., 2] + fixed)
-    sentence = "The tip is over the base axis: joint 1 cannot move it sideways."
-    yield terms.family("tip on axis", "internal", "pose", sentence, out)
+    sentence = tr("The tip is over the base axis: joint 1 cannot move it sideways.")
+    yield terms.family(tr("tip on axis"), "internal", "pose", sentence, out)
 
 
 def _none(_terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from rvsim.errors import UnknownNameError
 from rvsim.kinematics.singular_families import SingularFamily, singular_families
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray, floats
 
@@ -44,10 +45,12 @@ def go_to_singularity(robot: Robot, family: SingularFamily | str, q: ArrayLike) 
         return SingularPose(found)
     free = _nearest(robot, wanted, here, np.broadcast_to([-np.inf, np.inf], robot.limits.shape))
     if free is None:
-        return SingularPose(None, reason=f"No pose of the {wanted.title} was found: this arm's lengths allow none.")
+        return SingularPose(
+            None, reason=tr("No pose of the {title} was found: this arm's lengths allow none.", title=wanted.title)
+        )
     outside = np.flatnonzero((free < robot.limits[:, 0]) | (free > robot.limits[:, 1]))
     names = ", ".join(robot.joint_names[i] for i in outside)
-    reason = f"The {wanted.title} lies outside the limits of {names}."
+    reason = tr("The {title} lies outside the limits of {names}.", title=wanted.title, names=names)
     return SingularPose(None, free, tuple(int(i) for i in outside), reason)
 
 
@@ -56,7 +59,7 @@ def _named(robot: Robot, name: str) -> SingularFamily:
     for family in families:
         if family.name == name:
             return family
-    raise UnknownNameError("family of singular poses", name, [family.name for family in families] or ["none"])
+    raise UnknownNameError(tr("family of singular poses"), name, [family.name for family in families] or ["none"])
 
 
 def _nearest(robot: Robot, family: SingularFamily, here: FloatArray, limits: FloatArray) -> FloatArray | None:

@@ -9,6 +9,7 @@ import numpy as np
 from rvsim.kinematics.clearance import clearance
 from rvsim.lab.findings import length_words
 from rvsim.lab.sentences import Units, joint_amount
+from rvsim.language import tr
 from rvsim.motion import joint_move
 from rvsim.playback.player import Playable
 from rvsim.robot import Robot
@@ -31,7 +32,7 @@ def objections(
     times = np.linspace(0.0, motion.duration, _MOMENTS)
     q = np.asarray(motion.q(times), dtype=np.float64)
     if q.shape != (_MOMENTS, robot.dof):
-        return (f"It is a motion of {q.shape[-1]} joints, and the arm has {robot.dof}.",)
+        return (tr("It is a motion of {shape} joints, and the arm has {dof}.", shape=q.shape[-1], dof=robot.dof),)
     return (
         *_on_the_way(robot, here, q[0], table, units),
         *_limits(robot, times, q, units),
@@ -44,7 +45,7 @@ def what_is_touched(robot: Robot, q: FloatArray, *, table: float | None = 0.0) -
     """What the arm would touch in a pose (n,): "the table", "itself", or "" for nothing."""
     clear = clearance(robot, q, table=0.0 if table is None else table)
     if table is not None and clear.table < 0.0:
-        return "the table"
+        return tr("the table")
     return "itself" if clear.own < 0.0 else ""
 
 
@@ -57,7 +58,7 @@ def _on_the_way(
     move = joint_move(robot, here, start)
     times = np.linspace(0.0, move.duration, _MOMENTS)
     for sentence in _clearances(robot, times, move.q(times), table, units):
-        yield f"On the way to its start: {sentence[0].lower()}{sentence[1:]}"
+        yield tr("On the way to its start: {lower}{sentence}", lower=sentence[0].lower(), sentence=sentence[1:])
 
 
 def _limits(robot: Robot, times: FloatArray, q: FloatArray, units: Units) -> Iterator[str]:
@@ -69,7 +70,13 @@ def _limits(robot: Robot, times: FloatArray, q: FloatArray, units: Units) -> Ite
             limit = float(lower if value < lower else upper)
             name = robot.joint_names[index]
             needs, ends = (joint_amount(robot, name, angle, units) for angle in (value, limit))
-            yield f"At {times[worst]:.2f} s {name} would be at {needs}; arm and servos stop at {ends}."
+            yield tr(
+                "At {times:.2f} s {name} would be at {needs}; arm and servos stop at {ends}.",
+                times=times[worst],
+                name=name,
+                needs=needs,
+                ends=ends,
+            )
 
 
 def _speeds(robot: Robot, times: FloatArray, q: FloatArray) -> Iterator[str]:
@@ -79,16 +86,22 @@ def _speeds(robot: Robot, times: FloatArray, q: FloatArray) -> Iterator[str]:
             continue
         share = float(rates[:, index].max()) / joint.max_speed.value
         if share > _FULL:
-            yield f"{joint.name} would turn at {share:.0%} of its top speed: give the motion more time."
+            yield tr(
+                "{name} would turn at {share:.0%} of its top speed: give the motion more time.",
+                name=joint.name,
+                share=share,
+            )
 
 
 def _clearances(robot: Robot, times: FloatArray, q: FloatArray, table: float | None, units: Units) -> Iterator[str]:
     clear = clearance(robot, q, table=0.0 if table is None else table)
-    wanted = (("the table", clear.table if table is not None else None), ("itself", clear.own))
+    wanted = ((tr("the table"), clear.table if table is not None else None), ("itself", clear.own))
     for what, found in wanted:
         if found is None or not len(found):
             continue
         worst = int(np.argmin(found))
         if found[worst] < 0.0:
             depth = length_words(robot, -float(found[worst]), units)
-            yield f"At {times[worst]:.2f} s the arm would touch {what}, {depth} deep."
+            yield tr(
+                "At {times:.2f} s the arm would touch {what}, {depth} deep.", times=times[worst], what=what, depth=depth
+            )

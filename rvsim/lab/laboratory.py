@@ -24,21 +24,25 @@ from rvsim.kinematics.numeric import (
 )
 from rvsim.lab.sentences import MINUS, Units, joint_amount, length_number
 from rvsim.lab.source_002 import Comparison
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import degrees_from_radians
 
 TITLES: dict[Solver, str] = {
-    "newton": "Newton–Raphson",
-    "dls": "Damped least squares",
-    "lm": "Levenberg–Marquardt",
-    "bfgs": "BFGS gradient projection",
+    "newton": tr_later("Newton–Raphson"),
+    "dls": tr_later("Damped least squares"),
+    "lm": tr_later("Levenberg–Marquardt"),
+    "bfgs": tr_later("BFGS gradient projection"),
 }
-SHORT_TITLES: dict[Solver, str] = {"newton": "Newton", "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
+SHORT_TITLES: dict[Solver, str] = {"newton": tr_later("Newton"), "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
 EXACT = Preset(
-    "Exact, one try",
-    "Until a millionth of a metre and of a radian, within the limits, and without random restarts: what each solver "
-    "makes of this one start.",
+    tr_later("Exact, one try"),
+    tr_later(
+        "Until a millionth of a metre and of a radian, within the limits, and without random restarts: what each "
+        "solver "
+        "makes of this one start."
+    ),
     "lm",
     "pose",
     SolverOptions(allow_random_restarts=False),
@@ -141,8 +145,8 @@ def target_of(robot: Robot, q: FloatArray) -> FloatArray:
 def verdict(trial: Trial, outcome: Outcome, units: Units = _UNITS) -> str:
     """What one solver did, and why it ended."""
     result = outcome.result
-    end = f"ends after {_count(result.iterations, 'iteration')}"
-    left = "" if result.converged else f" {_missing(trial, result, units)} left."
+    end = tr("ends after {count}", count=_count(result.iterations, "iteration"))
+    left = "" if result.converged else tr(" {missing} left.", missing=_missing(trial, result, units))
     return f"{outcome.title} {end}. {result.reason}{left}{_curve_note(result)}{_limit_note(trial, result, units)}"
 
 
@@ -152,30 +156,56 @@ def contest_sentence(contest: Contest, units: Units = _UNITS) -> str:
     if not done:
         nearest = contest.best
         missing = _missing(contest.trial, nearest.result, units)
-        return f"None of the {count} reaches the target. Nearest: {nearest.title}, {missing} left."
+        return tr(
+            "None of the {count} reaches the target. Nearest: {title}, {missing} left.",
+            count=count,
+            title=nearest.title,
+            missing=missing,
+        )
     if len(done) == 1:
-        return f"Only {done[0].title} reaches the target, in {_count(done[0].result.iterations, 'iteration')}."
-    who = f"All {count} reach" if len(done) == count else f"{len(done)} of {count} reach"
-    return f"{who} the target. {_fewest_clause(contest)} {_solutions_clause(contest)}"
+        return tr(
+            "Only {title} reaches the target, in {count}.",
+            title=done[0].title,
+            count=_count(done[0].result.iterations, "iteration"),
+        )
+    who = (
+        tr("All {count} reach", count=count)
+        if len(done) == count
+        else tr("{count} of {count2} reach", count=len(done), count2=count)
+    )
+    return tr(
+        "{who} the target. {fewest_clause} {solutions_clause}",
+        who=who,
+        fewest_clause=_fewest_clause(contest),
+        solutions_clause=_solutions_clause(contest),
+    )
 
 
 def _fewest_clause(contest: Contest) -> str:
     least = contest.best.result.iterations
     first = [outcome for outcome in contest.converged if outcome.result.iterations == least]
-    who = f"{contest.best.title} needs" if len(first) == 1 else f"{_together(first)} need"
-    return f"{who} the fewest iterations ({least})."
+    who = (
+        tr("{title} needs", title=contest.best.title)
+        if len(first) == 1
+        else tr("{together} need", together=_together(first))
+    )
+    return tr("{who} the fewest iterations ({least}).", who=who, least=least)
 
 
 def _solutions_clause(contest: Contest) -> str:
     groups = same_solutions(contest)
     if len(groups) == 1:
-        return "They end in the same pose of the arm."
-    return f"They end in {len(groups)} different poses of the arm: {'; '.join(map(_together, groups))}."
+        return tr("They end in the same pose of the arm.")
+    return tr(
+        "They end in {count} different poses of the arm: {map}.",
+        count=len(groups),
+        map="; ".join(map(_together, groups)),
+    )
 
 
 def _together(group: Sequence[Outcome]) -> str:
     *most, last = (SHORT_TITLES[outcome.solver] for outcome in group)
-    return f"{', '.join(most)} and {last}" if most else last
+    return tr("{most} and {last}", most=", ".join(most), last=last) if most else last
 
 
 def same_solutions(contest: Contest) -> tuple[tuple[Outcome, ...], ...]:
@@ -201,9 +231,9 @@ def _missing(trial: Trial, result: NumericResult, units: Units) -> str:
         return text
     turn = result.rotation_error
     return (
-        f"{text} and {_short(degrees_from_radians(turn))}°"
+        tr("{text} and {short}°", text=text, short=_short(degrees_from_radians(turn)))
         if units.angle == "deg"
-        else f"{text} and {_short(turn)} rad"
+        else tr("{text} and {short} rad", text=text, short=_short(turn))
     )
 
 
@@ -217,8 +247,8 @@ def _curve_note(result: NumericResult) -> str:
     if not result.restarts:
         return ""
     which = "last" if result.converged else "best"
-    needed = f" It took {_count(result.restarts, 'random restart')}." if result.converged else ""
-    return f"{needed} The curve shows the {which} try alone."
+    needed = tr(" It took {count}.", count=_count(result.restarts, tr("random restart"))) if result.converged else ""
+    return tr("{needed} The curve shows the {which} try alone.", needed=needed, which=which)
 
 
 def _limit_note(trial: Trial, result: NumericResult, units: Units) -> str:
@@ -227,7 +257,11 @@ def _limit_note(trial: Trial, result: NumericResult, units: Units) -> str:
         return ""
     first = violations[0]
     name = trial.robot.joint_names[first.joint]
-    return f" Outside the limits: {name} at {joint_amount(trial.robot, name, float(result.q[first.joint]), units)}."
+    return tr(
+        " Outside the limits: {name} at {joint_amount}.",
+        name=name,
+        joint_amount=joint_amount(trial.robot, name, float(result.q[first.joint]), units),
+    )
 
 
 def source_002_sentence(comparison: Comparison, units: Units = _UNITS) -> str:
@@ -241,13 +275,21 @@ def source_002_sentence(comparison: Comparison, units: Units = _UNITS) -> str:
     ]
     believed = f"{factor * printed.believed_deviations.max():.{more + 1}f}"
     return (
-        f"As printed, the real UR5e is {off[0]} {unit} RMS away from the ellipse ({off[1]} to {off[2]} {unit}), "
-        f"while the program believes itself within {believed} {unit}. "
-        f"Corrected: {factor * corrected.rms:.0e} {unit} RMS, which is rounding alone."
+        tr(
+            "As printed, the real UR5e is {off} {unit} RMS away from the ellipse ({off2} to {off3} {unit}), "
+            "while the program believes itself within {believed} {unit}. "
+            "Corrected: {factor:.0e} {unit} RMS, which is rounding alone.",
+            off=off[0],
+            unit=unit,
+            off2=off[1],
+            off3=off[2],
+            believed=believed,
+            factor=factor * corrected.rms,
+        )
     ).replace("e-", f"e{MINUS}")
 
 
-SOURCE_002_READING = (
+SOURCE_002_READING = tr_later(
     "With the misprints read as they stand in code 2: a2 and a3 positive (the table of the same source has them "
     "negative), d6 without sin θ5 in x and missing in y, and terms lost in the Jacobian. Its fourth column cannot be "
     "read in the published copy; it is taken as the third without a3. Degrees become radians by 0.0175, 0.01744 and "

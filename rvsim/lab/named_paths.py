@@ -16,6 +16,7 @@ from rvsim.lab import drawings
 from rvsim.lab.lines import line_presets
 from rvsim.lab.orientations import SourceRotations, level_rotations, oriented
 from rvsim.lab.path_file import read_path
+from rvsim.language import tr_later
 from rvsim.motion import Path, line_path
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -85,50 +86,62 @@ def _upright(points: FloatArray) -> FloatArray:
 
 
 _LETTER, _RVM1 = drawings.LETTER_SAMPLES, ("rv-m1",)
-_DOWN = "tool down"
+_DOWN = tr_later("tool down")
 _TABLE = (
-    NamedPath("line", "Line", "A straight line, as in source 000, Program 7.", (), _DOWN, _line),
+    NamedPath("line", tr_later("Line"), tr_later("A straight line, as in source 000, Program 7."), (), _DOWN, _line),
     NamedPath(
         "letter-raw",
-        "Letter as printed",
-        "Source 000, Program 9: the spline through twelve points in decimetres, with the parameter as height. It lies "
-        "up to 7 m away; nothing of it is in reach.",
+        tr_later("Letter as printed"),
+        tr_later(
+            "Source 000, Program 9: the spline through twelve points in decimetres, with the parameter as height. It "
+            "lies "
+            "up to 7 m away; nothing of it is in reach."
+        ),
         _RVM1,
         _DOWN,
         _curve(drawings.letter_raw, _LETTER),
     ),
     NamedPath(
         "letter-scaled",
-        "Letter divided by 40",
-        "Source 000, Program 16: the same spline divided by 40. The source gives no height; at 300 mm 21 of 50 points "
-        "are in reach.",
+        tr_later("Letter divided by 40"),
+        tr_later(
+            "Source 000, Program 16: the same spline divided by 40. The source gives no height; at 300 mm 21 of 50 "
+            "points "
+            "are in reach."
+        ),
         _RVM1,
         _DOWN,
         _scaled_letter,
     ),
     NamedPath(
         "letter-flat",
-        "Letter on a table",
-        "Source 000's letter divided by 40 and moved to where the arm can draw all of it: x + 256 mm, y − 87 mm, on a "
-        "table of 150 mm.",
+        tr_later("Letter on a table"),
+        tr_later(
+            "Source 000's letter divided by 40 and moved to where the arm can draw all of it: x + 256 mm, y − 87 mm, "
+            "on a "
+            "table of 150 mm."
+        ),
         _RVM1,
         _DOWN,
         _curve(drawings.letter_flat, _LETTER),
     ),
     NamedPath(
         "letter-board",
-        "Letter on a board",
-        "Source 000's letter divided by 40, upright on a board at x = 340 mm, the tool level.",
+        tr_later("Letter on a board"),
+        tr_later("Source 000's letter divided by 40, upright on a board at x = 340 mm, the tool level."),
         _RVM1,
-        "tool level, away from the base",
+        tr_later("tool level, away from the base"),
         _curve(drawings.letter_board, _LETTER),
         level_rotations,
     ),
     NamedPath(
         "ellipse",
-        "Ellipse as printed",
-        "Source 002: 184 points on the mounting plane, with the printed orientation made orthogonal. 70 of them are "
-        "too near to the base axis for that orientation.",
+        tr_later("Ellipse as printed"),
+        tr_later(
+            "Source 002: 184 points on the mounting plane, with the printed orientation made orthogonal. 70 of them "
+            "are "
+            "too near to the base axis for that orientation."
+        ),
         ("ur5e",),
         "120° about z",
         _curve(drawings.ellipse, drawings.ELLIPSE_SAMPLES),
@@ -136,8 +149,8 @@ _TABLE = (
     ),
     NamedPath(
         "ellipse-moved",
-        "Ellipse moved",
-        "Source 002's ellipse moved by +300 mm along x and z, where all of it is in reach.",
+        tr_later("Ellipse moved"),
+        tr_later("Source 002's ellipse moved by +300 mm along x and z, where all of it is in reach."),
         ("ur5e",),
         "120° about z",
         _curve(drawings.ellipse_moved, drawings.ELLIPSE_SAMPLES),
@@ -145,15 +158,20 @@ _TABLE = (
     ),
     NamedPath(
         "spiral",
-        "Spiral",
-        "Source 003: straight up, then a spiral, 2001 points in the source's unit of length.",
+        tr_later("Spiral"),
+        tr_later("Source 003: straight up, then a spiral, 2001 points in the source's unit of length."),
         ("rrrp",),
         "upright",
         _curve(drawings.spiral, drawings.SPIRAL_SAMPLES),
         _upright,
     ),
     NamedPath(
-        "star", "Star", "A five-pointed star in one stroke, about the middle of the arm's line.", (), _DOWN, _star
+        "star",
+        tr_later("Star"),
+        tr_later("A five-pointed star in one stroke, about the middle of the arm's line."),
+        (),
+        _DOWN,
+        _star,
     ),
 )
 _BY_NAME = {entry.name: entry for entry in _TABLE}

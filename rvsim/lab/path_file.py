@@ -11,6 +11,7 @@ from pathlib import Path as FilePath
 from rvsim.errors import ExpressionError, PathFileError
 from rvsim.expressions import evaluate
 from rvsim.lab.table_file import RawRow, cells_of, counts, is_number, plain_name, read_text
+from rvsim.language import tr
 from rvsim.motion import Path, through_points
 from rvsim.units import metres_from_millimetres
 
@@ -45,14 +46,14 @@ def points_mm_of(path: FilePath, text: str) -> list[tuple[float, ...]]:
     if columns is not None:
         rows = rows[1:]
     if not rows:
-        raise PathFileError(path, "the file", "a header only", "at least one row of x, y, z in millimetres")
+        raise PathFileError(path, tr("the file"), tr("a header only"), tr("at least one row of x, y, z in millimetres"))
     return [_point(path, row, columns or (0, 1, 2)) for row in rows]
 
 
 def _rows(path: FilePath, text: str) -> list[RawRow]:
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if counts(line)]
     if not lines:
-        raise PathFileError(path, "the file", "nothing", "rows of x, y, z in millimetres")
+        raise PathFileError(path, tr("the file"), "nothing", tr("rows of x, y, z in millimetres"))
     delimiter = next((mark for mark in _DELIMITERS if mark in lines[0][1]), ",")
     return [RawRow(number, cells_of(line, delimiter)) for number, line in lines]
 
@@ -64,8 +65,10 @@ def _header(path: FilePath, row: RawRow) -> tuple[int, ...] | None:
     names = [plain_name(cell) for cell in row.cells]
     missing = [name for name in _COLUMNS if name not in names]
     if missing:
-        found = f"a header without {' and '.join(missing)} ({', '.join(row.cells)[:60]})"
-        raise PathFileError(path, f"row {row.number}", found, "columns x, y, z in millimetres")
+        found = tr(
+            "a header without {missing} ({cells})", missing=" and ".join(missing), cells=", ".join(row.cells)[:60]
+        )
+        raise PathFileError(path, tr("row {number}", number=row.number), found, tr("columns x, y, z in millimetres"))
     return tuple(names.index(name) for name in _COLUMNS)
 
 
@@ -74,11 +77,11 @@ def _point(path: FilePath, row: RawRow, columns: Sequence[int]) -> tuple[float, 
 
 
 def _value(path: FilePath, row: RawRow, column: int, name: str) -> float:
-    where = f"row {row.number}, column {column + 1} ({name})"
+    where = tr("row {number}, column {column} ({name})", number=row.number, column=column + 1, name=name)
     if column >= len(row.cells):
-        raise PathFileError(path, where, "nothing", "a number in millimetres")
+        raise PathFileError(path, where, "nothing", tr("a number in millimetres"))
     try:
         return evaluate(row.cells[column])
     except ExpressionError:
-        found = f"“{row.cells[column][:30]}”" if row.cells[column] else "an empty cell"
-        raise PathFileError(path, where, found, "a number in millimetres") from None
+        found = f"“{row.cells[column][:30]}”" if row.cells[column] else tr("an empty cell")
+        raise PathFileError(path, where, found, tr("a number in millimetres")) from None

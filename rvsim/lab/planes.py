@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.experiment import Placement
+from rvsim.language import tr_later
 from rvsim.robot.arrays import FloatArray, frozen_array
 from rvsim.spatial import rot_x, rot_z, rpy_from_rotation
 
@@ -32,15 +33,17 @@ class Plane(NamedTuple):
 
 
 PLANES = {
-    "level": Plane("Level (table)", "Flat, as on a table; the normal points up", lambda _: np.eye(3)),
+    "level": Plane(
+        tr_later("Level (table)"), tr_later("Flat, as on a table; the normal points up"), lambda _: np.eye(3)
+    ),
     "facing": Plane(
-        "Upright, facing the arm",
-        "Like a board before the arm, read from the arm's side",
+        tr_later("Upright, facing the arm"),
+        tr_later("Like a board before the arm, read from the arm's side"),
         lambda azimuth: np.asarray(rot_z(azimuth - _QUARTER) @ rot_x(_QUARTER)),
     ),
     "sideways": Plane(
-        "Upright, sideways",
-        "Like a board beside which the arm stretches out: straight ahead and up",
+        tr_later("Upright, sideways"),
+        tr_later("Like a board beside which the arm stretches out: straight ahead and up"),
         lambda azimuth: np.asarray(rot_z(azimuth) @ rot_x(_QUARTER)),
     ),
 }

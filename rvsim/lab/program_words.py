@@ -8,10 +8,11 @@ from typing import Any
 
 from rvsim.experiment.program import ArcMove, Gripper, JointMove, LineMove, Move, Wait
 from rvsim.lab.sentences import MINUS, Units, joint_amount, length_number, reasons
+from rvsim.language import tr, tr_later
 from rvsim.motion.program import Plan, Problem, ProblemKind
 from rvsim.robot import Robot
 
-_TOOLS = {"keep": "", "turn": ", tool turned", "free": ", tool free"}
+_TOOLS = {"keep": "", "turn": tr_later(", tool turned"), "free": tr_later(", tool free")}
 _DEFAULT = Units()
 
 
@@ -22,29 +23,40 @@ def move_words(move: Move, robot: Robot, units: Units = _DEFAULT) -> str:
 
 def _joint(move: JointMove, robot: Robot, units: Units) -> str:
     if move.pose:
-        return f"joints to “{move.pose}”, {_percent(move.speed)}"
+        return tr("joints to “{pose}”, {percent}", pose=move.pose, percent=_percent(move.speed))
     names = robot.joint_names
     if len(move.q) != len(names):
-        return f"joints of an arm with {len(move.q)} joints"
+        return tr("joints of an arm with {count} joints", count=len(move.q))
     values = (joint_amount(robot, name, value, units) for name, value in zip(names, move.q, strict=True))
-    return f"joints to ({', '.join(values)}), {_percent(move.speed)}"
+    return tr("joints to ({values}), {percent}", values=", ".join(values), percent=_percent(move.speed))
 
 
 def _line(move: LineMove, robot: Robot, units: Units) -> str:
-    return f"line to {_place(move.to, robot, units)}{_TOOLS[move.tool]}, {_percent(move.speed)}"
+    return tr(
+        "line to {place}{tools}, {percent}",
+        place=_place(move.to, robot, units),
+        tools=_TOOLS[move.tool],
+        percent=_percent(move.speed),
+    )
 
 
 def _arc(move: ArcMove, robot: Robot, units: Units) -> str:
     via, to = (_place(place, robot, units) for place in (move.via, move.to))
-    return f"arc over {via} to {to}{_TOOLS[move.tool]}, {_percent(move.speed)}"
+    return tr(
+        "arc over {via} to {to}{tools}, {percent}",
+        via=via,
+        to=to,
+        tools=_TOOLS[move.tool],
+        percent=_percent(move.speed),
+    )
 
 
 def _wait(move: Wait, _robot: Robot, _units: Units) -> str:
-    return f"wait {move.seconds:g} s"
+    return tr("wait {seconds:g} s", seconds=move.seconds)
 
 
 def _gripper(move: Gripper, _robot: Robot, _units: Units) -> str:
-    return {0.0: "close the gripper", 1.0: "open the gripper"}.get(
+    return {0.0: tr("close the gripper"), 1.0: tr("open the gripper")}.get(
         move.opening, f"gripper {_percent(move.opening)} open"
     )
 
@@ -65,12 +77,12 @@ def problem_sentence(robot: Robot, move: Move, problem: Problem, units: Units = 
 
 def _no_pose(_robot: Robot, move: Move, _problem: Problem, _units: Units) -> str:
     name = move.pose if isinstance(move, JointMove) else ""
-    return f"No pose is remembered as “{name}”: save one under Arm, or give the joints."
+    return tr("No pose is remembered as “{name}”: save one under Arm, or give the joints.", name=name)
 
 
 def _outside(robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
     value, limit = (joint_amount(robot, problem.joint, number, units) for number in (problem.value, problem.limit))
-    return f"The {problem.joint} would go to {value} and stops at {limit}."
+    return tr("The {joint} would go to {value} and stops at {limit}.", joint=problem.joint, value=value, limit=limit)
 
 
 def _missed(_robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
@@ -78,13 +90,17 @@ def _missed(_robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
     tracking = problem.tracking
     share = tracking.unreached[0].index / tracking.samples
     why = reasons(tracking, units)[0].split(": ", 1)[-1]
-    reached = "from the very start" if share == 0.0 else f"after {_percent(share)} of the way"
-    return f"{reached[0].upper()}{reached[1:]} the arm cannot follow: {why}."
+    reached = tr("from the very start") if share == 0.0 else tr("after {percent} of the way", percent=_percent(share))
+    return tr("{upper}{reached} the arm cannot follow: {why}.", upper=reached[0].upper(), reached=reached[1:], why=why)
 
 
 def _beside(robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
     number, unit = length_number(robot, problem.value, units)
-    return f"The tool would leave its way by {number:.2g} {unit}: it passes too near to a singular pose."
+    return tr(
+        "The tool would leave its way by {number:.2g} {unit}: it passes too near to a singular pose.",
+        number=number,
+        unit=unit,
+    )
 
 
 def _said(text: str, *_: object) -> str:
@@ -93,12 +109,16 @@ def _said(text: str, *_: object) -> str:
 
 _PROBLEMS: dict[ProblemKind, Callable[[Robot, Move, Problem, Units], str]] = {
     "pose": _no_pose,
-    "joints": partial(_said, "The numbers are those of an arm with other joints."),
+    "joints": partial(_said, tr_later("The numbers are those of an arm with other joints.")),
     "limits": _outside,
     "path": _missed,
-    "branch": partial(_said, "The arm would have to change its branch on the way: put a joint move before it."),
+    "branch": partial(
+        _said, tr_later("The arm would have to change its branch on the way: put a joint move before it.")
+    ),
     "tolerance": _beside,
-    "no closed form": partial(_said, "This arm has no closed form for its inverse kinematics: use joint moves."),
+    "no closed form": partial(
+        _said, tr_later("This arm has no closed form for its inverse kinematics: use joint moves.")
+    ),
 }
 
 
@@ -106,13 +126,13 @@ def plan_sentence(plan: Plan, units: Units = _DEFAULT) -> str:
     """The whole in one sentence: "All 5 moves can be done, in 12.3 s."."""
     count, seconds = len(plan.moves), float(plan.starts[-1])
     if not count:
-        return "No move yet: add the present pose, a line to where the tool is, or a wait."
+        return tr("No move yet: add the present pose, a line to where the tool is, or a wait.")
     if plan.problem is None:
-        every = "The one move" if count == 1 else f"All {count} moves"
-        return f"{every} can be done, in {seconds:.1f} s."
+        every = tr("The one move") if count == 1 else tr("All {count} moves", count=count)
+        return tr("{every} can be done, in {seconds:.1f} s.", every=every, seconds=seconds)
     number = len(plan.steps)
     why = problem_sentence(plan.robot, plan.moves[number], plan.problem, units)
-    return f"Move {number + 1} of {count} cannot be done. {why}"
+    return tr("Move {number} of {count} cannot be done. {why}", number=number + 1, count=count, why=why)
 
 
 def _place(place: Iterable[float], robot: Robot, units: Units) -> str:

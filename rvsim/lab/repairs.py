@@ -15,6 +15,7 @@ from rvsim.kinematics import inverse_kinematics_batch
 from rvsim.lab.named_paths import line_of
 from rvsim.lab.sentences import Units, length_number
 from rvsim.lab.shape_paths import placed_task, placement_of, task_path
+from rvsim.language import tr
 from rvsim.motion import Path, Tracking, Trajectory, track, trajectory_of
 from rvsim.motion.honesty import SEVERITIES, Report, check
 from rvsim.motion.placement import Place, largest_in_place, nearest_place
@@ -78,8 +79,8 @@ def _free(kind: str, experiment: Experiment, report: Report) -> Offer | None:
     tried = _tried(kind, freed)
     if tried is None or tried.reached_count <= tracking.reached_count:
         return None
-    title = "Free pitch" if experiment.robot.dof == 5 else "Free orientation"
-    tip = f"Let the tool tilt as it likes; every place is kept. {_outcome(tried)}"
+    title = tr("Free pitch") if experiment.robot.dof == 5 else tr("Free orientation")
+    tip = tr("Let the tool tilt as it likes; every place is kept. {outcome}", outcome=_outcome(tried))
     return Offer("free", title, tip, tried, freed)
 
 
@@ -98,10 +99,15 @@ def _tried(kind: str, experiment: Experiment) -> Tracking | None:
 
 
 def _outcome(tracking: Tracking) -> str:
-    jumps = f", with {len(tracking.jumps)} jumps" if tracking.jumps else ""
+    jumps = tr(", with {count} jumps", count=len(tracking.jumps)) if tracking.jumps else ""
     if tracking.complete:
-        return f"Tried: all {tracking.samples} points are reached{jumps}."
-    return f"Tried: {tracking.reached_count} of {tracking.samples} points are reached{jumps}."
+        return tr("Tried: all {samples} points are reached{jumps}.", samples=tracking.samples, jumps=jumps)
+    return tr(
+        "Tried: {reached_count} of {samples} points are reached{jumps}.",
+        reached_count=tracking.reached_count,
+        samples=tracking.samples,
+        jumps=jumps,
+    )
 
 
 def _ignoring(kind: str, experiment: Experiment, report: Report) -> Offer | None:
@@ -112,8 +118,11 @@ def _ignoring(kind: str, experiment: Experiment, report: Report) -> Offer | None
     tried = _tried(kind, beyond)
     if tried is None or tried.reached_count <= tracking.reached_count:
         return None
-    tip = f"Go beyond the joint limits, as programs of the sources did; a real arm cannot. {_outcome(tried)}"
-    return Offer("ignore limits", "Ignore limits", tip, tried, beyond)
+    tip = tr(
+        "Go beyond the joint limits, as programs of the sources did; a real arm cannot. {outcome}",
+        outcome=_outcome(tried),
+    )
+    return Offer(tr("ignore limits"), tr("Ignore limits"), tip, tried, beyond)
 
 
 # --- the time ----------------------------------------------------------------------------------------------------
@@ -127,14 +136,24 @@ def _slower(experiment: Experiment, report: Report) -> Iterator[Offer | None]:
     slower = replace(experiment, ease=True)
     seconds = _path_seconds(report.tracking, slower)
     if seconds < _WORTH * behind.value:
-        tip = (
-            f"Only where a joint needs it, not as a whole: the path takes {seconds:.2f} s instead of "
-            f"{behind.value:.2f} s. Tried: no joint exceeds its speed or acceleration."
+        tip = tr(
+            "Only where a joint needs it, not as a whole: the path takes {seconds:.2f} s instead of "
+            "{value:.2f} s. Tried: no joint exceeds its speed or acceleration.",
+            seconds=seconds,
+            value=behind.value,
         )
-        yield Offer("ease", f"Slow down only there: {seconds:.2f} s", tip, report.tracking, slower)
+        yield Offer("ease", tr("Slow down only there: {seconds:.2f} s", seconds=seconds), tip, report.tracking, slower)
     enough = math.ceil(100.0 * behind.value) / 100.0
-    tip = f"Ask for the time that the joints need, instead of {behind.limit:.2f} s. It moves as it does now."
-    yield Offer("longer", f"Take {enough:.2f} s", tip, report.tracking, replace(experiment, path_seconds=enough))
+    tip = tr(
+        "Ask for the time that the joints need, instead of {limit:.2f} s. It moves as it does now.", limit=behind.limit
+    )
+    yield Offer(
+        "longer",
+        tr("Take {enough:.2f} s", enough=enough),
+        tip,
+        report.tracking,
+        replace(experiment, path_seconds=enough),
+    )
 
 
 def _path_seconds(tracking: Tracking, experiment: Experiment) -> float:
@@ -168,7 +187,7 @@ def _placed(kind: str, experiment: Experiment, report: Report, units: Units) -> 
     for scale in () if found else _SCALES_WHEN_MOVED:
         search = nearest_place(experiment.robot, path, near=experiment.q, ignore_limits=limits, scale=scale)
         for place in search:
-            offer = place and _placement_offer("move and scale", kind, experiment, path, place, units)
+            offer = place and _placement_offer(tr("move and scale"), kind, experiment, path, place, units)
             yield offer
             if offer:
                 return
@@ -185,13 +204,13 @@ def _placement_offer(
     shift = place.center - path.middle
     parts = []
     if name != "scale":
-        parts.append(f"Move by {_vector(experiment.robot, shift, units)}")
+        parts.append(tr("Move by {vector}", vector=_vector(experiment.robot, shift, units)))
     if name != "move":
-        parts.append(f"{'s' if parts else 'S'}cale to {100.0 * place.scale:.0f} %")
+        parts.append(tr("{value}cale to {scale:.0f} %", value="s" if parts else "S", scale=100.0 * place.scale))
     what = {
-        "move": "The nearest place at which all of it is reached",
-        "scale": "The largest of a few scales at which all of it is reached where it is",
-        "move and scale": "The nearest place for it at that scale",
+        "move": tr("The nearest place at which all of it is reached"),
+        "scale": tr("The largest of a few scales at which all of it is reached where it is"),
+        "move and scale": tr("The nearest place for it at that scale"),
     }[name]
     return Offer(name, ", ".join(parts), f"{what}. {_outcome(tried)}", tried, moved)
 
@@ -232,8 +251,9 @@ def _split(report: Report) -> Offer | None:
     up = path.pen_up
     if up is None or tried.reached_count < tracking.reached_count or not all(up[jump] for jump in tried.jumps):
         return None
-    times = "once" if len(jumps) == 1 else f"{len(jumps)} times"
-    return Offer("split", f"Lift the pen {times}", f"At each jump, and set it down behind it. {_outcome(tried)}", tried,
+    times = "once" if len(jumps) == 1 else tr("{count} times", count=len(jumps))
+    return Offer("split", tr("Lift the pen {times}", times=times), tr("At each jump, and set it down behind it. "
+                                                                      "{outcome}", outcome=_outcome(tried)), tried,
                  None)  # fmt: skip
 
 
@@ -276,7 +296,10 @@ def _other_start(kind: str, experiment: Experiment, report: Report) -> Iterator[
             continue
         rank = _rank(check(tried, motion_of(tried, moved)))
         if rank < best_rank:
-            best, best_rank = Offer("branch", "Start on another branch", _branch_tip(tried, rank), tried, moved), rank
+            best, best_rank = (
+                Offer("branch", tr("Start on another branch"), _branch_tip(tried, rank), tried, moved),
+                rank,
+            )
     yield best
 
 
@@ -287,8 +310,16 @@ def _rank(report: Report) -> tuple[int, int]:
 
 
 def _branch_tip(tried: Tracking, rank: tuple[int, int]) -> str:
-    left = "nothing is left to warn of" if rank == (0, 0) else f"{sum(rank)} finding{'s' * (sum(rank) > 1)} left"
-    return f"Put the arm into another branch at the first point, and track from there. {_outcome(tried)[:-1]}; {left}."
+    left = (
+        tr("nothing is left to warn of")
+        if rank == (0, 0)
+        else tr("{sum} finding{value} left", sum=sum(rank), value="s" * (sum(rank) > 1))
+    )
+    return tr(
+        "Put the arm into another branch at the first point, and track from there. {outcome}; {left}.",
+        outcome=_outcome(tried)[:-1],
+        left=left,
+    )
 
 
 def _starts(tracking: Tracking) -> FloatArray:

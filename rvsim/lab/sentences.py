@@ -9,6 +9,7 @@ from typing import Literal
 
 from rvsim.kinematics import Failure
 from rvsim.kinematics.inverse.explain import DEGREES, METRES, MILLIMETRES, RADIANS, explain
+from rvsim.language import tr
 from rvsim.motion import Tracking, Unreached
 from rvsim.robot import Robot
 from rvsim.units import degrees_from_radians, millimetres_from_metres
@@ -48,18 +49,26 @@ def tracking_sentence(tracking: Tracking, units: Units = _DEFAULT) -> str:
     start, why = short_sentence(tracking).removesuffix("."), reasons(tracking, units)
     if missed == tracking.samples and len(why) == 1:
         return f"{start}: {why[0].split(': ', 1)[1]}."
-    return f"{start}; {missed} not: {'; '.join(why)}."
+    return tr("{start}; {missed} not: {why}.", start=start, missed=missed, why="; ".join(why))
 
 
 def short_sentence(tracking: Tracking) -> str:
     """How many points were reached: "4 of 11 points reached within the limits."."""
-    within = "without regard to the limits" if tracking.ignore_limits else "within the limits"
+    within = tr("without regard to the limits") if tracking.ignore_limits else tr("within the limits")
     if tracking.complete:
-        count = "The one point" if tracking.samples == 1 else f"All {tracking.samples} points"
-        return f"{count} reached {within}{_jump_clause(tracking)}."
+        count = tr("The one point") if tracking.samples == 1 else tr("All {samples} points", samples=tracking.samples)
+        return tr(
+            "{count} reached {within}{jump_clause}.", count=count, within=within, jump_clause=_jump_clause(tracking)
+        )
     if not tracking.reached_count:
-        return f"None of {_points(tracking.samples)} reached {within}."
-    return f"{tracking.reached_count} of {_points(tracking.samples)} reached {within}{_jump_clause(tracking)}."
+        return tr("None of {points} reached {within}.", points=_points(tracking.samples), within=within)
+    return tr(
+        "{reached_count} of {points} reached {within}{jump_clause}.",
+        reached_count=tracking.reached_count,
+        points=_points(tracking.samples),
+        within=within,
+        jump_clause=_jump_clause(tracking),
+    )
 
 
 def reasons(tracking: Tracking, units: Units = _DEFAULT) -> tuple[str, ...]:
@@ -71,11 +80,17 @@ def reasons(tracking: Tracking, units: Units = _DEFAULT) -> tuple[str, ...]:
 def deviation_sentence(tracking: Tracking, units: Units = _DEFAULT) -> str:
     """RMS and largest deviation over the reached points, and what the solving took."""
     if tracking.rms is None or tracking.max_deviation is None:
-        return "No point was reached: there is no deviation to tell."
-    over = "all points" if tracking.complete else f"the {_points(tracking.reached_count)} reached"
+        return tr("No point was reached: there is no deviation to tell.")
+    over = tr("all points") if tracking.complete else tr("the {points} reached", points=_points(tracking.reached_count))
     rms, largest = (length_error(tracking.robot, error, units) for error in (tracking.rms, tracking.max_deviation))
     milliseconds = 1e3 * tracking.solve_seconds
-    return f"RMS {rms} over {over}, largest {largest}; solved in {milliseconds:.1f} ms."
+    return tr(
+        "RMS {rms} over {over}, largest {largest}; solved in {milliseconds:.1f} ms.",
+        rms=rms,
+        over=over,
+        largest=largest,
+        milliseconds=milliseconds,
+    )
 
 
 def advice_sentence(tracking: Tracking) -> str:
@@ -84,11 +99,11 @@ def advice_sentence(tracking: Tracking) -> str:
     if not kinds:
         return ""
     turns = tracking.path.rotations is not None and tracking.robot.dof >= _FEWEST_JOINTS_TO_TURN
-    free = "leave the orientation free" if tracking.robot.dof != 5 else "leave the pitch free"
+    free = tr("leave the orientation free") if tracking.robot.dof != 5 else tr("leave the pitch free")
     choices = [
         *([free] if turns and kinds & {"orientation", "limits"} else []),
-        *(["ignore the limits"] if "limits" in kinds else []),
-        "move the path nearer to where the arm can work" if "reach" in kinds else "move the path",
+        *([tr("ignore the limits")] if "limits" in kinds else []),
+        tr("move the path nearer to where the arm can work") if "reach" in kinds else tr("move the path"),
     ]
     text = choices[0] if len(choices) == 1 else f"{', '.join(choices[:-1])}, or {choices[-1]}"
     return f"{text[0].upper()}{text[1:]}."
@@ -128,14 +143,18 @@ def _plain(value: float, decimals: int = 1) -> str:
 
 
 def _points(count: int) -> str:
-    return "1 point" if count == 1 else f"{count} points"
+    return "1 point" if count == 1 else tr("{count} points", count=count)
 
 
 def _jump_clause(tracking: Tracking) -> str:
     if not tracking.jumps:
         return ""
-    times = "a change of branch" if len(tracking.jumps) == 1 else f"{len(tracking.jumps)} changes of branch"
-    return f", with {times} on the way"
+    times = (
+        tr("a change of branch")
+        if len(tracking.jumps) == 1
+        else tr("{count} changes of branch", count=len(tracking.jumps))
+    )
+    return tr(", with {times} on the way", times=times)
 
 
 def _groups(unreached: Iterable[Unreached]) -> list[list[Unreached]]:
@@ -156,25 +175,33 @@ def _cause(point: Unreached) -> tuple[str, str | None, float | None]:
 
 def _which(group: list[Unreached]) -> str:
     first, last = group[0].index + 1, group[-1].index + 1
-    return f"point {first}" if first == last else f"points {first}–{last}"
+    return (
+        tr("point {first}", first=first) if first == last else tr("points {first}\u2013{last}", first=first, last=last)
+    )
 
 
 def stretch_reason(robot: Robot, group: list[Unreached], units: Units) -> str:
     """Why neighbouring points were missed that failed for the same reason, as a clause."""
     point = group[0]
     if point.kind == "reach":
-        return "out of reach in any orientation"
+        return tr("out of reach in any orientation")
     if point.kind == "orientation" or point.joint is None or point.value is None or point.limit is None:
-        return "in reach, but not in this orientation"
+        return tr("in reach, but not in this orientation")
     limit = point.limit
     needed = sorted((p.value for p in group if p.value is not None), key=lambda value: -abs(value - limit))
     most, least = (joint_amount(robot, point.joint, value, units) for value in (needed[0], needed[-1]))
     stop = joint_amount(robot, point.joint, limit, units)
     if most == least:
-        return f"{_joint(point.joint)} needs {most}, stops at {stop}"
-    return f"{_joint(point.joint)} needs {most} … {least} and stops at {stop}"
+        return tr("{joint} needs {most}, stops at {stop}", joint=_joint(point.joint), most=most, stop=stop)
+    return tr(
+        "{joint} needs {most} … {least} and stops at {stop}",
+        joint=_joint(point.joint),
+        most=most,
+        least=least,
+        stop=stop,
+    )
 
 
 def _joint(name: str) -> str:
     """With an article where the name is a word."""
-    return f"the {name}" if name.replace(" ", "").isalpha() else name
+    return tr("the {name}", name=name) if name.replace(" ", "").isalpha() else name

@@ -30,6 +30,7 @@ from rvsim.lab.lines import line_presets
 from rvsim.lab.named_paths import named_path
 from rvsim.lab.orientations import Wanted, oriented
 from rvsim.lab.planes import PLANES, laid
+from rvsim.language import tr, tr_later
 from rvsim.motion import Path, shapes
 from rvsim.motion.lettering import text_strokes
 from rvsim.motion.shapes import Drawing
@@ -62,7 +63,7 @@ def _text(shape: TextShape) -> Drawing:
         raise LetterError("")
     points = _count(lines, shape)
     if points > MOST_SAMPLES:
-        raise TooManyPointsError("The text", points, MOST_SAMPLES, "space them wider, or write smaller letters")
+        raise TooManyPointsError(tr("The text"), points, MOST_SAMPLES, tr("space them wider, or write smaller letters"))
     return shapes.strokes(lines, shape.spacing, shape.lift)
 
 
@@ -103,7 +104,12 @@ def formula_points(shape: FormulaShape) -> FloatArray:
         FormulaError: with the stage (from 1), the coordinate, and what is wrong.
     """
     if sum(stage.samples for stage in shape.stages) > MOST_SAMPLES:
-        raise FormulaError(len(shape.stages), "points", "", f"all stages together have more than {MOST_SAMPLES} points")
+        raise FormulaError(
+            len(shape.stages),
+            "points",
+            "",
+            tr("all stages together have more than {most_samples} points", most_samples=MOST_SAMPLES),
+        )
     pieces = [
         np.column_stack([_coordinate(number, name, getattr(stage, name), t) for name in _COORDINATES])
         for number, (stage, t) in enumerate(zip(shape.stages, formula_times(shape), strict=True), 1)
@@ -149,7 +155,9 @@ def _default_formulas(robot: Robot, middle: FloatArray, half: float) -> FormulaS
     up = f"{z:g}" if original_name(robot) == "planar" else f"{z:g} + {_round(0.02 * r):g}*t"
     stages = (
         FormulaStage(5.0, 51, f"{x:g}", f"{y:g} + {r / 5.0:g}*t", up),
-        FormulaStage(15.0, 100, f"{x:g} - {r:g}*sin(pi/5*t)", f"{y:g} - {r:g}*cos(pi/5*t)", up),
+        FormulaStage(
+            15.0, 100, tr("{x:g} - {r:g}*sin(pi/5*t)", x=x, r=r), tr("{y:g} - {r:g}*cos(pi/5*t)", y=y, r=r), up
+        ),
     )
     return FormulaShape(stages, unit=unit)
 
@@ -170,39 +178,39 @@ def _default_text(robot: Robot, _middle: FloatArray, half: float) -> TextShape:
 
 SHAPES: dict[str, ShapeKind] = {
     "circle": ShapeKind(
-        "Circle",
+        tr_later("Circle"),
         False,
         lambda _r, _m, half: CircleShape(_round(half / 3)),
         lambda s: shapes.circle(s.radius, s.samples),
     ),
     "arc": ShapeKind(
-        "Arc",
+        tr_later("Arc"),
         False,
         lambda _r, _m, half: ArcShape(_round(half / 3)),
         lambda s: shapes.arc(s.radius, s.begin, s.sweep, s.samples),
     ),
-    "arc-through": ShapeKind("Arc through three points", True, _default_arc_through, _through),
+    "arc-through": ShapeKind(tr_later("Arc through three points"), True, _default_arc_through, _through),
     "ellipse-shape": ShapeKind(
-        "Ellipse",
+        tr_later("Ellipse"),
         False,
         lambda _r, _m, half: EllipseShape(_round(half / 3), _round(half / 5)),
         lambda s: shapes.ellipse(s.a, s.b, s.samples),
     ),
     "polygon": ShapeKind(
-        "Polygon",
+        tr_later("Polygon"),
         False,
         lambda _r, _m, half: PolygonShape(_round(half / 3)),
         lambda s: shapes.regular_polygon(s.corners, s.radius, s.samples),
     ),
     "star": ShapeKind(
-        "Star",
+        tr_later("Star"),
         False,
         lambda _r, _m, half: StarShape(_round(half / 3)),
         lambda s: shapes.five_pointed_star(s.radius, s.samples),
     ),
-    "text": ShapeKind("Text", False, _default_text, _text),
-    "formulas": ShapeKind("Formulas", True, _default_formulas, _formulas),
-    "points": ShapeKind("Points", True, _default_points, _points),
+    "text": ShapeKind(tr_later("Text"), False, _default_text, _text),
+    "formulas": ShapeKind(tr_later("Formulas"), True, _default_formulas, _formulas),
+    "points": ShapeKind(tr_later("Points"), True, _default_points, _points),
 }
 
 
@@ -251,7 +259,7 @@ def in_plane(robot: Robot, task: TrajectoryTask, plane: str) -> TrajectoryTask:
     if plane not in PLANES:
         raise UnknownNameError("plane", plane, tuple(PLANES))
     if not is_flat(task):
-        raise UnknownNameError("flat shape", task.name, FLAT_SHAPES)
+        raise UnknownNameError(tr("flat shape"), task.name, FLAT_SHAPES)
     where = placement_of(robot, task)
     return placed_task(robot, task, laid(where, plane, level_yaw(task.name, where.center)))
 

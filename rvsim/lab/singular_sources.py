@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from rvsim.kinematics import jacobian, link_transforms, pose_and_jacobian
 from rvsim.kinematics.dh import joint_array
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import degrees_from_radians
@@ -90,11 +91,13 @@ class Barrier(NamedTuple):
     def verdict(self) -> str:
         """The sentence about it."""
         if self.singular:
-            return "Singular: upper arm, forearm and hand are in line."
+            return tr("Singular: upper arm, forearm and hand are in line.")
         numbers = ", ".join(f"{value:.3f}" for value in self.sigma)
-        return (
-            f"Not singular: σ = {numbers} m. A barrier: joint {self.stop + 1} is at its stop, and the other three "
-            "joints have lost a direction."
+        return tr(
+            "Not singular: σ = {numbers} m. A barrier: joint {stop} is at its stop, and the other three "
+            "joints have lost a direction.",
+            numbers=numbers,
+            stop=self.stop + 1,
         )
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from rvsim.errors import ExpressionError, PathFileError
 from rvsim.expressions import evaluate
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import metres_from_millimetres, radians_from_degrees
 
@@ -65,11 +66,16 @@ def read_text(file: Path | str) -> str:
     """
     path = Path(file)
     if path.stat().st_size > LARGEST_BYTES:
-        raise PathFileError(path, "the file", f"{path.stat().st_size} bytes", f"at most {LARGEST_BYTES}")
+        raise PathFileError(
+            path,
+            tr("the file"),
+            tr("{st_size} bytes", st_size=path.stat().st_size),
+            tr("at most {largest_bytes}", largest_bytes=LARGEST_BYTES),
+        )
     try:
         return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        raise PathFileError(path, "the file", "bytes that are no text", "a CSV file in UTF-8") from None
+        raise PathFileError(path, tr("the file"), tr("bytes that are no text"), tr("a CSV file in UTF-8")) from None
 
 
 def raw_table(path: Path, text: str, delimiter: str = "", has_header: bool | None = None) -> RawTable:
@@ -82,17 +88,17 @@ def raw_table(path: Path, text: str, delimiter: str = "", has_header: bool | Non
     """
     lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if counts(line)]
     if not lines:
-        raise PathFileError(path, "the file", "nothing", "rows of numbers")
+        raise PathFileError(path, tr("the file"), "nothing", tr("rows of numbers"))
     mark = delimiter or next((mark for mark in DELIMITERS if mark in lines[0][1].strip()), ",")
     rows = [RawRow(number, cells_of(line, mark)) for number, line in lines]
     header = not any(is_number(cell) for cell in rows[0].cells) if has_header is None else has_header
     width = max(len(row.cells) for row in rows)
-    names = [f"column {number}" for number in range(1, width + 1)]
+    names = [tr("column {number}", number=number) for number in range(1, width + 1)]
     if header:
         names[: len(rows[0].cells)] = rows[0].cells
     body = rows[1:] if header else rows
     if not body:
-        raise PathFileError(path, "the file", "a header only", "at least one row of numbers")
+        raise PathFileError(path, tr("the file"), tr("a header only"), tr("at least one row of numbers"))
     return RawTable(path, mark, header, tuple(names), body)
 
 
@@ -157,15 +163,15 @@ def table_values(table: RawTable, columns: Sequence[Column]) -> FloatArray:
 
 
 def _value(path: Path, row: RawRow, column: Column) -> float:
-    where = f"row {row.number}, column {column.index + 1} ({column.name})"
+    where = tr("row {number}, column {index} ({name})", number=row.number, index=column.index + 1, name=column.name)
     if column.index >= len(row.cells):
         raise PathFileError(path, where, "nothing", "a number")
     cell = row.cells[column.index]
     try:
         value = number_in(cell)
     except ExpressionError:
-        found = f"“{cell[:30]}”" if cell else "an empty cell"
+        found = f"“{cell[:30]}”" if cell else tr("an empty cell")
         raise PathFileError(path, where, found, "a number") from None
     if not math.isfinite(value):
-        raise PathFileError(path, where, f"“{cell[:30]}”", "a number of usual size")
+        raise PathFileError(path, where, f"“{cell[:30]}”", tr("a number of usual size"))
     return value

@@ -12,6 +12,7 @@ from rvsim.experiment import limit_violations
 from rvsim.experiment.program import JointMove, LineMove, Program
 from rvsim.lab.sentences import joint_amount
 from rvsim.lab.table_file import Column, ColumnUnit, RawTable, column_for, table_values, unit_of
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -81,9 +82,13 @@ def joints_in(table: RawTable, columns: Sequence[Column], robot: Robot, *, ignor
     joint, value, limit = limit_violations(robot, q[row])[0]
     name = robot.joint_names[joint]
     column = columns[joint]
-    where = f"row {table.rows[row].number}, column {column.index + 1} ({column.name})"
+    where = tr(
+        "row {number}, column {index} ({name})", number=table.rows[row].number, index=column.index + 1, name=column.name
+    )
     found, stop = (joint_amount(robot, name, number) for number in (value, limit))
-    raise PathFileError(table.path, where, found, f"the {name} within its limits: it stops at {stop}")
+    raise PathFileError(
+        table.path, where, found, tr("the {name} within its limits: it stops at {stop}", name=name, stop=stop)
+    )
 
 
 def times_in(table: RawTable, column: Column) -> FloatArray:
@@ -95,8 +100,15 @@ def times_in(table: RawTable, column: Column) -> FloatArray:
     times = table_values(table, [column])[:, 0]
     back = np.flatnonzero(np.diff(times) <= 0.0)
     if len(back):
-        where = f"row {table.rows[int(back[0]) + 1].number}, column {column.index + 1} ({column.name})"
-        raise PathFileError(table.path, where, f"{times[back[0] + 1]:g} s", f"a time after {times[back[0]]:g} s")
+        where = tr(
+            "row {number}, column {index} ({name})",
+            number=table.rows[int(back[0]) + 1].number,
+            index=column.index + 1,
+            name=column.name,
+        )
+        raise PathFileError(
+            table.path, where, f"{times[back[0] + 1]:g} s", tr("a time after {times:g} s", times=times[back[0]])
+        )
     return times
 
 
@@ -107,7 +119,12 @@ def moves_through(table: RawTable, values: FloatArray, content: Content) -> Prog
         PathFileError: too many rows.
     """
     if len(values) > MOST_MOVES:
-        raise PathFileError(table.path, "the file", f"{len(values)} rows", f"at most {MOST_MOVES} for a program")
+        raise PathFileError(
+            table.path,
+            tr("the file"),
+            tr("{count} rows", count=len(values)),
+            tr("at most {most_moves} for a program", most_moves=MOST_MOVES),
+        )
     if content == "joints":
         return tuple(JointMove(tuple(row)) for row in values.tolist())
     return tuple(LineMove((x, y, z)) for x, y, z in values.tolist())

@@ -13,6 +13,7 @@ from typing import Literal, NamedTuple, Protocol
 import numpy as np
 
 from rvsim.kinematics import jacobian, pose_and_jacobian
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rotation_from_vector, rotation_vector
@@ -37,7 +38,7 @@ class ToolMotion(NamedTuple):
     v: FloatArray
     w: FloatArray
     axes: Axes = "base"
-    name: str = "moving that way"  # for sentences: "moving along x", "turning about z"
+    name: str = tr_later("moving that way")  # for sentences: "moving along x", "turning about z"
 
 
 class JointMotion(NamedTuple):
@@ -130,7 +131,9 @@ class Course:
         speeds = np.abs(point.q - before) / (step * self._top)
         joint = int(np.argmax(speeds))
         if not problem and speeds[joint] * _SLOWEST > 1.0:
-            problem = _singular(f"the {self._robot.joint_names[joint]} would have to move too fast")
+            problem = _singular(
+                tr("the {joint_names} would have to move too fast", joint_names=self._robot.joint_names[joint])
+            )
         if not problem:
             self._ways.append(self._ways[-1] + step)
             self._points.append(point.q)
@@ -148,7 +151,11 @@ class Course:
     def _limit_text(self, limit: Limit | None) -> str:
         if limit is None:
             return ""
-        return f"Stopped: the {self._robot.joint_names[limit.joint]} is at its {limit.side_name} limit."
+        return tr(
+            "Stopped: the {joint_names} is at its {side_name} limit.",
+            joint_names=self._robot.joint_names[limit.joint],
+            side_name=limit.side_name,
+        )
 
     # --- along it --------------------------------------------------------------------------------------------------
 
@@ -198,7 +205,7 @@ class Course:
         if not length or self._caps[index] > 0.999:
             return ""
         name = self._robot.joint_names[self._slowest[index]]
-        return f"Slowed: the {name} moves at its top speed."
+        return tr("Slowed: the {name} moves at its top speed.", name=name)
 
     def speed_limits(self, deceleration: float) -> tuple[FloatArray, FloatArray]:
         """Places (k,) and the squares (k,) of the largest share of full speed there that can still be braked.
@@ -264,8 +271,8 @@ class _ToolGuide:
         missed = np.linalg.norm(twist[:3] - self._v) > _LOST * np.linalg.norm(self._v) + 1e-9
         turned = np.linalg.norm(twist[3:] - self._w) > _LOST * max(float(np.linalg.norm(self._w)), 0.1)
         if missed or (turned and self._strict):
-            kept = " while its tool stays in place" if np.any(self._w) else ""
-            return f"This arm cannot do that here: {self._motion.name} is lost{kept}."
+            kept = tr(" while its tool stays in place") if np.any(self._w) else ""
+            return tr("This arm cannot do that here: {name} is lost{kept}.", name=self._motion.name, kept=kept)
         return ""
 
     def rates(self, q: FloatArray) -> FloatArray:
@@ -285,7 +292,7 @@ class _ToolGuide:
                 break
             q = q + step
         if np.linalg.norm(off) > _POSITION or (self._strict and np.linalg.norm(turned) > _TURN):
-            return Point(q, _singular(f"{self._motion.name} is lost there"))
+            return Point(q, _singular(tr("{name} is lost there", name=self._motion.name)))
         return Point(q)
 
 
@@ -307,4 +314,4 @@ def first_then(J: FloatArray, v: FloatArray, w: FloatArray, size: float, damping
 
 
 def _singular(why: str) -> str:
-    return f"Stopped before a singularity: {why}."
+    return tr("Stopped before a singularity: {why}.", why=why)

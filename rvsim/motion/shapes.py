@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rvsim.errors import ShapeError
+from rvsim.language import tr
 from rvsim.motion.path import Path
 from rvsim.motion.spline import knot_slopes
 from rvsim.robot.arrays import FloatArray, frozen_array
@@ -61,7 +62,7 @@ def regular_polygon(corners: int, radius: float, samples: int) -> Drawing:
         ShapeError: fewer than three corners.
     """
     if corners < 3:
-        raise ShapeError("polygon corners", "(at least 3,)", (corners,))
+        raise ShapeError(tr("polygon corners"), tr("(at least 3,)"), (corners,))
     return _through_turns(corners, 1, radius, samples)
 
 
@@ -120,10 +121,10 @@ def spline_curve(knots: ArrayLike, samples: int, ends: str = "natural") -> Drawi
     Raises:
         ShapeError: fewer than two knots.
     """
-    known = frozen_array("spline knots", knots, (-1, np.shape(knots)[-1]))
+    known = frozen_array(tr("spline knots"), knots, (-1, np.shape(knots)[-1]))
     known = known[np.concatenate([[True], np.any(np.diff(known, axis=0) != 0.0, axis=1)])]
     if len(known) < 2:
-        raise ShapeError("spline knots", "(at least 2 different ones, …)", known.shape)
+        raise ShapeError(tr("spline knots"), tr("(at least 2 different ones, …)"), known.shape)
     if ends == "closed" and len(known) > 2:
         return Drawing(_closed_spline(known, samples), None)
     x = _chords(known)

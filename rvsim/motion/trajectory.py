@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import ShapeError
+from rvsim.language import tr, tr_later
 from rvsim.motion.laws import (
     Moments,
     PiecewisePolynomial,
@@ -28,10 +29,10 @@ from rvsim.robot.arrays import FloatArray, frozen_array
 Phase = Literal["approach", "path"]
 Law = Literal["quintic", "cubic", "trapezoid", "quickest"]
 LAW_TITLES: dict[Law, str] = {
-    "quintic": "Quintic: soft, no jump of acceleration",
-    "cubic": "Cubic: from rest to rest",
-    "trapezoid": "Trapezoid: even speed in the middle",
-    "quickest": "Quickest: always at a limit of some joint",
+    "quintic": tr_later("Quintic: soft, no jump of acceleration"),
+    "cubic": tr_later("Cubic: from rest to rest"),
+    "trapezoid": tr_later("Trapezoid: even speed in the middle"),
+    "quickest": tr_later("Quickest: always at a limit of some joint"),
 }
 
 # From 0 to 1 in a second, at rest at both ends; the trapezoid speeds up for a quarter of the time.
@@ -117,7 +118,7 @@ class Trajectory:
 
     def __post_init__(self) -> None:
         if not self.stretches:
-            raise ShapeError("stretches", "(at least 1,)", (0,))
+            raise ShapeError("stretches", tr("(at least 1,)"), (0,))
         for before, after in zip(self.stretches, self.stretches[1:], strict=False):
             if not np.array_equal(before.q[-1], after.q[0]):
                 raise ValueError("A stretch of a trajectory must begin in the pose in which the one before ends.")

@@ -10,6 +10,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from rvsim.errors import UnknownNameError
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.robot import Convention, Joint, LinkMass, Robot
 from rvsim.robot.shape import BoxShape, CapsuleShape, Shape
@@ -19,12 +20,14 @@ DH_KEYS: tuple[DHKey, ...] = get_args(DHKey)
 OWN_PREFIX = "my-"  # an edited copy of "rv-m1" is named "my-rv-m1", until it is saved under another name
 _COPY = re.compile(r"(?:edited )?copy of [^;]+ \(([^;()]+)\)(?:;|$)")
 _GEOMETRY = ("theta", "d", "a", "alpha")
-_EDITED = "of the link before its DH row was edited"
+_EDITED = tr_later("of the link before its DH row was edited")
 
 
 def copied_source(robot: Robot) -> str:
     """The source of a copy: whose copy it is, and where the numbers of that one are from."""
-    return f"copy of {robot.title} ({robot.name})" + (f"; {robot.source}" if robot.source else "")
+    return tr("copy of {title} ({name})", title=robot.title, name=robot.name) + (
+        f"; {robot.source}" if robot.source else ""
+    )
 
 
 def original_name(robot: Robot) -> str:
@@ -66,7 +69,7 @@ def with_dh_value(robot: Robot, joint: int, key: DHKey, value: float, *, look_of
         RobotDefinitionError: the value makes no arm (not finite, a lower limit above the upper one).
     """
     if key not in DH_KEYS:
-        raise UnknownNameError("DH value", key, DH_KEYS)
+        raise UnknownNameError(tr("DH value"), key, DH_KEYS)
     changes: dict[str, float] = {key: value}
     old = robot.joints[joint]
     if key in ("lower", "upper"):

@@ -9,13 +9,14 @@ from typing import Literal, get_args
 import numpy as np
 
 from rvsim.errors import RobotDefinitionError, UnknownNameError
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.robot import LinkMass, Robot
 
 MassKey = Literal["mass", "x", "y", "z", "xx", "yy", "zz"]
 MASS_KEYS: tuple[MassKey, ...] = get_args(MassKey)
-BY_HAND = "entered by hand"  # the source of a number of the user's own
-_GUESSED = "a guess to start from: 1 kg half-way along the link"
+BY_HAND = tr_later("entered by hand")  # the source of a number of the user's own
+_GUESSED = tr_later("a guess to start from: 1 kg half-way along the link")
 _GUESSED_MASS = 1.0  # [kg]
 _LEAST_INERTIA = 1e-3  # [kg m²]
 
@@ -38,9 +39,11 @@ def with_mass_value(robot: Robot, link: int, key: MassKey, value: float) -> Robo
         RobotDefinitionError: not finite, or a negative mass or moment of inertia.
     """
     if key not in MASS_KEYS:
-        raise UnknownNameError("mass value", key, MASS_KEYS)
+        raise UnknownNameError(tr("mass value"), key, MASS_KEYS)
     if not math.isfinite(value) or (value < 0.0 and key not in ("x", "y", "z")):
-        raise RobotDefinitionError(robot.name, f"link {link + 1}: {key} must be finite, and no mass is negative.")
+        raise RobotDefinitionError(
+            robot.name, tr("link {link}: {key} must be finite, and no mass is negative.", link=link + 1, key=key)
+        )
     masses = list(robot.masses or _massless(robot))
     masses[link] = _changed(masses[link], key, value)
     return replace(robot, masses=tuple(masses))

@@ -6,13 +6,14 @@ from dataclasses import replace
 from typing import Literal
 
 from rvsim.errors import RobotDefinitionError
+from rvsim.language import tr, tr_later
 from rvsim.robot.mass_edits import BY_HAND
 from rvsim.robot.robot import Datum, Robot
 
 RatingOrigin = Literal["source", "assumed", "yours"]
 LEAST_RATING, LARGEST_RATING = 1e-6, 1e6  # [N m, N] that a robot file takes
 GUESSED_TORQUE, GUESSED_FORCE = 10.0, 100.0  # [N m], [N]
-_GUESSED = "a guess to start from: the same for every drive of its kind"
+_GUESSED = tr_later("a guess to start from: the same for every drive of its kind")
 
 
 def rating_origin(rating: Datum) -> RatingOrigin:
@@ -31,8 +32,14 @@ def with_max_torque(robot: Robot, joint: int, value: float | None) -> Robot:
     if value is None:
         return robot.with_joint(joint, max_torque=None)
     if not LEAST_RATING <= value <= LARGEST_RATING:
-        rule = f"a torque rating is a number above 0, up to {LARGEST_RATING:,.0f}; {value:g} is none."
-        raise RobotDefinitionError(robot.name, f"joint {robot.joint_names[joint]!r}: {rule}")
+        rule = tr(
+            "a torque rating is a number above 0, up to {largest_rating:,.0f}; {value:g} is none.",
+            largest_rating=LARGEST_RATING,
+            value=value,
+        )
+        raise RobotDefinitionError(
+            robot.name, tr("joint {joint_names!r}: {rule}", joint_names=robot.joint_names[joint], rule=rule)
+        )
     return robot.with_joint(joint, max_torque=Datum(value, assumed=True, source=BY_HAND))
 
 

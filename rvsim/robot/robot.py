@@ -10,6 +10,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from rvsim.errors import RobotDefinitionError, UnknownNameError
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray, frozen_array
 from rvsim.robot.servo import GripperServo, Servo
 from rvsim.robot.shape import Shape
@@ -92,8 +93,8 @@ class Gripper:
     closing: FloatArray = field(default_factory=lambda: _NOWHERE)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", frozen_array("gripper points", self.points, (-1, 3)))
-        object.__setattr__(self, "closing", frozen_array("gripper closing", self.closing, (3,)))
+        object.__setattr__(self, "points", frozen_array(tr("gripper points"), self.points, (-1, 3)))
+        object.__setattr__(self, "closing", frozen_array(tr("gripper closing"), self.closing, (3,)))
 
     def shift(self, points: FloatArray, opening: float) -> FloatArray:
         """(..., 3) how far points (..., 3) of the fingers are from where they are drawn; `opening` is 0 (closed) … 1.
@@ -121,7 +122,7 @@ class LinkMass:
 
 
 _IDENTITY = frozen_array("identity", np.eye(4), (4, 4))
-NO_TOOL = Tool("flange", "Flange (no tool)", _IDENTITY)
+NO_TOOL = Tool("flange", tr_later("Flange (no tool)"), _IDENTITY)
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,15 +168,21 @@ class Robot:
     def __post_init__(self) -> None:
         object.__setattr__(self, "T_base_0", frozen_array("T_base_0", self.T_base_0, (4, 4)))
         if not self.joints:
-            raise RobotDefinitionError(self.name, "an arm needs at least one joint.")
+            raise RobotDefinitionError(self.name, tr("an arm needs at least one joint."))
         for joint in self.joints:
             _check_joint(self.name, joint)
         if any(shape.finger and shape.frame != self.dof for shape in self.shapes):
-            raise RobotDefinitionError(self.name, f"a finger of the gripper moves with frame {self.dof}, the flange.")
+            raise RobotDefinitionError(
+                self.name, tr("a finger of the gripper moves with frame {dof}, the flange.", dof=self.dof)
+            )
         if self.masses and len(self.masses) != self.dof:
-            raise RobotDefinitionError(self.name, f"{len(self.masses)} link masses for {self.dof} links.")
+            raise RobotDefinitionError(
+                self.name, tr("{count} link masses for {dof} links.", count=len(self.masses), dof=self.dof)
+            )
         if self.servos and len(self.servos) != self.dof:
-            raise RobotDefinitionError(self.name, f"{len(self.servos)} servos for {self.dof} joints.")
+            raise RobotDefinitionError(
+                self.name, tr("{count} servos for {dof} joints.", count=len(self.servos), dof=self.dof)
+            )
         _check_channels(self.name, self.servos, self.gripper_servo)
         if not self.tool_name:
             object.__setattr__(self, "tool_name", self.tools[0].name)
@@ -255,19 +262,23 @@ class Robot:
 
 
 def _check_joint(robot: str, joint: Joint) -> None:
-    where = f"joint {joint.name!r}"
+    where = tr("joint {name!r}", name=joint.name)
     if joint.type not in ("revolute", "prismatic"):
-        raise RobotDefinitionError(robot, f"{where} is {joint.type!r}; a joint is 'revolute' or 'prismatic'.")
+        raise RobotDefinitionError(
+            robot, tr("{where} is {type!r}; a joint is 'revolute' or 'prismatic'.", where=where, type=joint.type)
+        )
     if not all(math.isfinite(value) for value in (joint.theta, joint.d, joint.a, joint.alpha, joint.home)):
-        raise RobotDefinitionError(robot, f"{where} has a DH value that is not finite.")
+        raise RobotDefinitionError(robot, tr("{where} has a DH value that is not finite.", where=where))
     if not joint.lower < joint.upper:
-        raise RobotDefinitionError(robot, f"{where}: its lower limit must lie below its upper limit.")
+        raise RobotDefinitionError(robot, tr("{where}: its lower limit must lie below its upper limit.", where=where))
     if not joint.lower <= joint.home <= joint.upper:
-        raise RobotDefinitionError(robot, f"{where}: its home must lie within its limits.")
+        raise RobotDefinitionError(robot, tr("{where}: its home must lie within its limits.", where=where))
 
 
 def _check_channels(robot: str, servos: tuple[Servo, ...], gripper: GripperServo | None) -> None:
     channels = [servo.channel for servo in servos] + ([gripper.channel] if gripper else [])
     twice = {channel for channel in channels if channels.count(channel) > 1}
     if twice:
-        raise RobotDefinitionError(robot, f"two servos on channel {min(twice)}; each needs a channel of its own.")
+        raise RobotDefinitionError(
+            robot, tr("two servos on channel {twice}; each needs a channel of its own.", twice=min(twice))
+        )

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from rvsim.errors import RobotDefinitionError
+from rvsim.language import tr
 
 SHORTEST_US, LONGEST_US = 500.0, 2500.0
 CHANNELS = 32
@@ -40,11 +41,11 @@ class Servo:
         _check_channel(self.channel)
         _check_pulses(self.channel, self.min_us, self.max_us)
         if self.min_us >= self.max_us:
-            raise RobotDefinitionError(_where(self.channel), "its shortest pulse must lie below its longest one.")
+            raise RobotDefinitionError(_where(self.channel), tr("its shortest pulse must lie below its longest one."))
         if self.sign not in (-1, 1):
-            raise RobotDefinitionError(_where(self.channel), f"the sign is {self.sign}; it is 1 or -1.")
+            raise RobotDefinitionError(_where(self.channel), tr("the sign is {sign}; it is 1 or -1.", sign=self.sign))
         if not (math.isfinite(self.zero_us) and math.isfinite(self.us_per_rad) and self.us_per_rad > 0.0):
-            raise RobotDefinitionError(_where(self.channel), "the pulse at zero must be finite and µs/° above 0.")
+            raise RobotDefinitionError(_where(self.channel), tr("the pulse at zero must be finite and µs/° above 0."))
 
     @property
     def gain(self) -> float:
@@ -76,7 +77,7 @@ class GripperServo:
         _check_channel(self.channel)
         _check_pulses(self.channel, self.open_us, self.closed_us)
         if self.open_us == self.closed_us:
-            raise RobotDefinitionError(_where(self.channel), "open and closed need different pulses.")
+            raise RobotDefinitionError(_where(self.channel), tr("open and closed need different pulses."))
 
     def pulse(self, opening: float) -> float:
         """The pulse [µs] for an opening, 0 closed … 1 open; clamped."""
@@ -88,16 +89,23 @@ class GripperServo:
 
 
 def _where(channel: int) -> str:
-    return f"servo on channel {channel}"
+    return tr("servo on channel {channel}", channel=channel)
 
 
 def _check_channel(channel: int) -> None:
     if not 0 <= channel < CHANNELS:
-        raise RobotDefinitionError(_where(channel), f"the controller's channels are 0 to {CHANNELS - 1}.")
+        raise RobotDefinitionError(
+            _where(channel), tr("the controller's channels are 0 to {channels}.", channels=CHANNELS - 1)
+        )
 
 
 def _check_pulses(channel: int, *pulses_us: float) -> None:
     for pulse in pulses_us:
         if not SHORTEST_US <= pulse <= LONGEST_US:
-            what = f"a pulse of {pulse:g} µs; the controller's go from {SHORTEST_US:g} to {LONGEST_US:g} µs."
+            what = tr(
+                "a pulse of {pulse:g} µs; the controller's go from {shortest_us:g} to {longest_us:g} µs.",
+                pulse=pulse,
+                shortest_us=SHORTEST_US,
+                longest_us=LONGEST_US,
+            )
             raise RobotDefinitionError(_where(channel), what)

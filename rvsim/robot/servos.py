@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import RobotDefinitionError
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.robot import Robot
 from rvsim.robot.servo import Servo
@@ -49,8 +50,13 @@ def within_servos(robot: Robot) -> Robot:
         if not lower < upper:
             raise RobotDefinitionError(
                 robot.name,
-                f"joint {joint.name!r}: its servo turns from {math.degrees(least):.1f}° to "
-                f"{math.degrees(largest):.1f}°, wholly outside the joint's limits. Calibrate it again.",
+                tr(
+                    "joint {name!r}: its servo turns from {least:.1f}° to "
+                    "{largest:.1f}°, wholly outside the joint's limits. Calibrate it again.",
+                    name=joint.name,
+                    least=math.degrees(least),
+                    largest=math.degrees(largest),
+                ),
             )
         home = min(max(joint.home, lower), upper)
         narrowed = narrowed.with_joint(index, lower=lower, upper=upper, home=home)

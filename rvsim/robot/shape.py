@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rvsim.errors import RobotDefinitionError
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 
@@ -30,8 +31,8 @@ class CapsuleShape:
     finger: bool = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "start", frozen_array("capsule start", self.start, (3,)))
-        object.__setattr__(self, "end", frozen_array("capsule end", self.end, (3,)))
+        object.__setattr__(self, "start", frozen_array(tr("capsule start"), self.start, (3,)))
+        object.__setattr__(self, "end", frozen_array(tr("capsule end"), self.end, (3,)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,10 +53,10 @@ class BoxShape:
     finger: bool = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "center", frozen_array("box center", self.center, (3,)))
-        object.__setattr__(self, "size", frozen_array("box size", self.size, (3,)))
+        object.__setattr__(self, "center", frozen_array(tr("box center"), self.center, (3,)))
+        object.__setattr__(self, "size", frozen_array(tr("box size"), self.size, (3,)))
         if not np.all(self.size > 0.0):
-            raise RobotDefinitionError("box", "every edge of a box must be longer than 0.")
+            raise RobotDefinitionError("box", tr("every edge of a box must be longer than 0."))
 
 
 Shape = CapsuleShape | BoxShape

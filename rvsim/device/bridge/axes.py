@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from rvsim.device.bridge.messages import LARGEST, MOST_AXES, Place
 from rvsim.errors import RobotDefinitionError, ShapeError
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -56,7 +57,10 @@ def axis_scales(robot: Robot) -> FloatArray:
     scales = [_PER_RADIAN if joint.revolute else _PER_METRE for joint in robot.joints]
     scales += [] if robot.gripper_servo is None else [_PER_OPENING]
     if len(scales) > MOST_AXES:
-        raise RobotDefinitionError(robot.name, f"{len(scales)} axes; the encoder bridge knows {MOST_AXES} at most.")
+        raise RobotDefinitionError(
+            robot.name,
+            tr("{count} axes; the encoder bridge knows {most_axes} at most.", count=len(scales), most_axes=MOST_AXES),
+        )
     return np.array(scales)
 
 

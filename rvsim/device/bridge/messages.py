@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from rvsim.device.bridge.frames import Frame, Problem, frame_bytes
 from rvsim.errors import SettingError
+from rvsim.language import tr
 
 MOST_AXES = 16
 LONGEST_MS = 0xFFFF
@@ -134,7 +135,9 @@ class Identity:
         _check("version", self.version, 0xFF)
         _check("joints", self.joints, MOST_AXES)
         if not (self.name.isascii() and self.name.isprintable() and len(self.name) <= LONGEST_NAME):
-            raise SettingError("name", self.name, f"at most {LONGEST_NAME} printable ASCII characters")
+            raise SettingError(
+                "name", self.name, tr("at most {longest_name} printable ASCII characters", longest_name=LONGEST_NAME)
+            )
 
 
 @dataclass(frozen=True)
@@ -162,7 +165,9 @@ class Axes:
     def __post_init__(self) -> None:
         _check_places(self.places)
         if not len(self.places) == len(self.stalled) == len(self.limit):
-            raise SettingError("axes", (len(self.stalled), len(self.limit)), f"{len(self.places)} flags each")
+            raise SettingError(
+                "axes", (len(self.stalled), len(self.limit)), tr("{count} flags each", count=len(self.places))
+            )
 
 
 @dataclass(frozen=True)
@@ -310,12 +315,14 @@ _CODES: dict[type, int] = {form.message: code for code, form in _FORMS.items()}
 
 def _check(name: str, value: int, most: int) -> None:
     if not 0 <= value <= most:
-        raise SettingError(name, value, f"a whole number from 0 to {most}")
+        raise SettingError(name, value, tr("a whole number from 0 to {most}", most=most))
 
 
 def _check_places(places: Sequence[Place]) -> None:
     if len(places) > MOST_AXES:
-        raise SettingError("places", len(places), f"at most {MOST_AXES} axes")
+        raise SettingError("places", len(places), tr("at most {most_axes} axes", most_axes=MOST_AXES))
     for place in places:
         if place is not None and abs(place) > LARGEST:
-            raise SettingError("place", place, f"a whole number from {-LARGEST} to {LARGEST}")
+            raise SettingError(
+                "place", place, tr("a whole number from {largest} to {largest2}", largest=-LARGEST, largest2=LARGEST)
+            )

@@ -25,22 +25,30 @@ from rvsim.device.bridge.messages import (
     Wake,
     decode,
 )
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
 PROBLEM_WORDS: dict[Problem, str] = {
-    Problem.NOISE: "bytes outside of a frame",
-    Problem.CUT: "a frame that was cut short",
-    Problem.ESCAPE: "an escape byte where none belongs",
-    Problem.LENGTH: "a wrong length",
-    Problem.CRC: "a wrong CRC",
-    Problem.SEQUENCE: "a repeated or old sequence number",
-    Problem.TYPE: "an unknown type",
-    Problem.VALUE: "a number outside its range, or an axis that there is not",
-    Problem.ASLEEP: "an axis is asleep: wake it first",
-    Problem.STOPPED: "a stop has latched: clear it first",
+    Problem.NOISE: tr_later("bytes outside of a frame"),
+    Problem.CUT: tr_later("a frame that was cut short"),
+    Problem.ESCAPE: tr_later("an escape byte where none belongs"),
+    Problem.LENGTH: tr_later("a wrong length"),
+    Problem.CRC: tr_later("a wrong CRC"),
+    Problem.SEQUENCE: tr_later("a repeated or old sequence number"),
+    Problem.TYPE: tr_later("an unknown type"),
+    Problem.VALUE: tr_later("a number outside its range, or an axis that there is not"),
+    Problem.ASLEEP: tr_later("an axis is asleep: wake it first"),
+    Problem.STOPPED: tr_later("a stop has latched: clear it first"),
 }
 # In the order of the flags of a Status.
-_STATUS_WORDS = ("moving", "not following", "at a limit", "stopped", "some axis asleep", "restarted")
+_STATUS_WORDS = (
+    "moving",
+    tr_later("not following"),
+    tr_later("at a limit"),
+    "stopped",
+    tr_later("some axis asleep"),
+    "restarted",
+)
 
 
 class _Axes:
@@ -52,7 +60,7 @@ class _Axes:
         self._joints = len(self._sliding)
 
     def name(self, axis: int) -> str:
-        return self._names[axis] if axis < len(self._names) else f"axis {axis}"
+        return self._names[axis] if axis < len(self._names) else tr("axis {axis}", axis=axis)
 
     def place(self, axis: int, place: Place) -> str:
         if place is None:
@@ -60,7 +68,7 @@ class _Axes:
         if not self._names or axis > self._joints:
             return _hundredths(place)
         if axis == self._joints:
-            return f"{_hundredths(place)} % open"
+            return tr("{hundredths} % open", hundredths=_hundredths(place))
         return f"{_hundredths(place)} mm" if self._sliding[axis] else f"{_hundredths(place)}°"
 
 
@@ -72,35 +80,46 @@ def frame_in_words(data: bytes, robot: Robot | None = None) -> str:
     """
     axes, decoder = _Axes(robot), FrameDecoder()
     words = [_found(item, axes) for item in decoder.feed(data)]
-    return "; ".join(words + ["a piece of a frame"] * decoder.unfinished)
+    return "; ".join(words + [tr("a piece of a frame")] * decoder.unfinished)
 
 
 def _found(found: Found, axes: _Axes) -> str:
     if isinstance(found, BadFrame):
-        return f"no frame: {PROBLEM_WORDS[found.problem]}"
+        return tr("no frame: {problem}", problem=PROBLEM_WORDS[found.problem])
     message = decode(found)
     if isinstance(message, Problem):
-        return f"{found.sequence}: says nothing: {PROBLEM_WORDS[message]}"
+        return tr("{sequence}: says nothing: {problem}", sequence=found.sequence, problem=PROBLEM_WORDS[message])
     return f"{found.sequence}: {_WORDS[type(message)](message, axes)}"
 
 
 def _set_points(message: SetPoints, axes: _Axes) -> str:
     told = [axis for axis, place in enumerate(message.places) if place is not None]
     if not told:
-        return "no axis to anywhere"
+        return tr("no axis to anywhere")
     parts = ", ".join(f"{axes.name(axis)} to {axes.place(axis, message.places[axis])}" for axis in told)
     return f"{parts}{', together' if len(told) > 1 else ''} in {message.duration_ms} ms"
 
 
 def _wake(message: Wake, axes: _Axes) -> str:
     if message.place is None:
-        return f"wake {axes.name(message.axis)} where it is"
-    return f"wake {axes.name(message.axis)}, to {axes.place(message.axis, message.place)} in {message.duration_ms} ms"
+        return tr("wake {name} where it is", name=axes.name(message.axis))
+    return tr(
+        "wake {name}, to {place} in {duration_ms} ms",
+        name=axes.name(message.axis),
+        place=axes.place(message.axis, message.place),
+        duration_ms=message.duration_ms,
+    )
 
 
 def _identity(message: Identity, _: _Axes) -> str:
-    grip = " and a gripper" if message.gripper else ""
-    return f"I am “{message.name}”, {message.joints} joints{grip}, version {message.version} of the protocol"
+    grip = tr(" and a gripper") if message.gripper else ""
+    return tr(
+        "I am “{name}”, {joints} joints{grip}, version {version} of the protocol",
+        name=message.name,
+        joints=message.joints,
+        grip=grip,
+        version=message.version,
+    )
 
 
 def _encoders(message: Encoders, axes: _Axes) -> str:
@@ -108,7 +127,12 @@ def _encoders(message: Encoders, axes: _Axes) -> str:
         f"{axes.name(axis)} {'has no encoder' if place is None else axes.place(axis, place)}"
         for axis, place in enumerate(message.places)
     )
-    return f"measured at {message.timestamp_ms} ms: {measured} ({_status(message.status)})"
+    return tr(
+        "measured at {timestamp_ms} ms: {measured} ({status})",
+        timestamp_ms=message.timestamp_ms,
+        measured=measured,
+        status=_status(message.status),
+    )
 
 
 def _axes_told(message: Axes, axes: _Axes) -> str:
@@ -116,36 +140,38 @@ def _axes_told(message: Axes, axes: _Axes) -> str:
         f"{axes.name(axis)} {'asleep' if place is None else axes.place(axis, place)}{_fares(message, axis)}"
         for axis, place in enumerate(message.places)
     )
-    return f"told: {told} ({_status(message.status)})"
+    return tr("told: {told} ({status})", told=told, status=_status(message.status))
 
 
 def _fares(message: Axes, axis: int) -> str:
-    return " (does not follow)" * message.stalled[axis] + " (at a limit)" * message.limit[axis]
+    return tr(" (does not follow)") * message.stalled[axis] + tr(" (at a limit)") * message.limit[axis]
 
 
 def _status(status: Status) -> str:
-    return ", ".join(word for word, on in zip(_STATUS_WORDS, status, strict=True) if on) or "at rest"
+    return ", ".join(word for word, on in zip(_STATUS_WORDS, status, strict=True) if on) or tr("at rest")
 
 
 def _error(message: Error, axes: _Axes) -> str:
     where = "" if message.axis is None else f"{axes.name(message.axis)}: "
-    return f"not done: {where}{PROBLEM_WORDS[message.problem]}"
+    return tr("not done: {where}{problem}", where=where, problem=PROBLEM_WORDS[message.problem])
 
 
 _WORDS: dict[type, Callable[[Any, _Axes], str]] = {
-    Identify: lambda *_: "what are you?",
-    Poll: lambda *_: "where are the axes?",
-    PollAxes: lambda *_: "what are the axes told?",
+    Identify: lambda *_: tr("what are you?"),
+    Poll: lambda *_: tr("where are the axes?"),
+    PollAxes: lambda *_: tr("what are the axes told?"),
     SetPoints: _set_points,
-    Stop: lambda *_: "stop, all axes",
-    Clear: lambda *_: "leave the latched stop",
+    Stop: lambda *_: tr("stop, all axes"),
+    Clear: lambda *_: tr("leave the latched stop"),
     Wake: _wake,
-    Limp: lambda message, axes: f"{axes.name(message.axis)} off (limp)",
-    Period: lambda message, _: f"report every {message.period_ms} ms" if message.period_ms else "report no more",
+    Limp: lambda message, axes: tr("{name} off (limp)", name=axes.name(message.axis)),
+    Period: lambda message, _: (
+        tr("report every {period_ms} ms", period_ms=message.period_ms) if message.period_ms else tr("report no more")
+    ),
     Identity: _identity,
     Encoders: _encoders,
     Axes: _axes_told,
-    Status: lambda message, _: f"done ({_status(message)})",
+    Status: lambda message, _: tr("done ({status})", status=_status(message)),
     Error: _error,
 }
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rvsim.errors import RobotDefinitionError
+from rvsim.language import tr
 from rvsim.robot import Servo
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.servo import LONGEST_US, SHORTEST_US
@@ -53,7 +54,7 @@ def fit_from_samples(servo: Servo, pulses_us: Sequence[float], q: Sequence[float
         return Objection(wrong)
     per_us, at_zero_us = _line(pulses, angles)
     if per_us == 0.0:
-        return Objection("The joint stands at the same angle at all these pulses: it did not move. Is it powered?")
+        return Objection(tr("The joint stands at the same angle at all these pulses: it did not move. Is it powered?"))
     fitted = with_line(servo, -at_zero_us / per_us, 1.0 / per_us, source)
     if isinstance(fitted, Objection):
         return fitted
@@ -83,7 +84,9 @@ def with_line(servo: Servo, zero_us: float, gain: float, source: str) -> Servo |
             source=source,
         )
     except RobotDefinitionError:
-        return Objection("No pulse of the controller would bring the joint between its limits. Mark its poses again.")
+        return Objection(
+            tr("No pulse of the controller would bring the joint between its limits. Mark its poses again.")
+        )
 
 
 def remarks_on(servo: Servo, name: str, revolute: bool, worst: float = 0.0) -> tuple[str, ...]:
@@ -97,12 +100,22 @@ def remarks_on(servo: Servo, name: str, revolute: bool, worst: float = 0.0) -> t
     least, most = PLAUSIBLE_US_PER_DEGREE
     if revolute and not least <= per_degree <= most:
         remarks.append(
-            f"The {name} would have {per_degree:.1f} µs/°; hobby servos have {least:g} to {most:g}. "
-            "Mark its poses again."
+            tr(
+                "The {name} would have {per_degree:.1f} µs/°; hobby servos have {least:g} to {most:g}. "
+                "Mark its poses again.",
+                name=name,
+                per_degree=per_degree,
+                least=least,
+                most=most,
+            )
         )
     if revolute and worst > _CROOKED:
         remarks.append(
-            f"The {name}'s samples lie up to {math.degrees(worst):.1f}° off a line. Was it held up, or at its end?"
+            tr(
+                "The {name}'s samples lie up to {worst:.1f}° off a line. Was it held up, or at its end?",
+                name=name,
+                worst=math.degrees(worst),
+            )
         )
     return tuple(remarks)
 
@@ -116,12 +129,14 @@ def _line(pulses: FloatArray, q: FloatArray) -> tuple[float, float]:
 
 def _wrong_samples(pulses: FloatArray, q: FloatArray) -> str:
     if pulses.ndim != 1 or pulses.shape != q.shape or len(pulses) < 2:
-        return "A line needs two samples at least, each with its pulse and its angle."
+        return tr("A line needs two samples at least, each with its pulse and its angle.")
     if not (np.isfinite(pulses).all() and np.isfinite(q).all()):
-        return "Some sample is no number: nothing was measured there."
+        return tr("Some sample is no number: nothing was measured there.")
     if pulses.min() < SHORTEST_US or pulses.max() > LONGEST_US:
-        return f"Pulses go from {SHORTEST_US:g} to {LONGEST_US:g} µs."
+        return tr(
+            "Pulses go from {shortest_us:g} to {longest_us:g} µs.", shortest_us=SHORTEST_US, longest_us=LONGEST_US
+        )
     if pulses.max() - pulses.min() < LEAST_TRAVEL_US:
-        found = f"{pulses.min():g} and {pulses.max():g} µs"
-        return f"The pulses are nearly the same ({found}): the joint must move between its marks."
+        found = tr("{value:g} and {value2:g} µs", value=pulses.min(), value2=pulses.max())
+        return tr("The pulses are nearly the same ({found}): the joint must move between its marks.", found=found)
     return ""

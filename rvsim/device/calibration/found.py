@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from rvsim.device.calibration.fit import LEAST_TRAVEL_US, Fit, Objection, fit_from_samples
 from rvsim.device.calibration.steps import ENDS, GRIPPER_STAGES, POSES, Stage
 from rvsim.device.calibration.words import number_words
+from rvsim.language import tr
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.servo import LONGEST_US, SHORTEST_US
 
@@ -54,9 +55,14 @@ def found_of(robot: Robot, marks: Marks, part: int | None) -> Servo | GripperSer
 def objection_to_pulse(pulse_us: float) -> str:
     """Why no servo can have this pulse, or ""."""
     if not math.isfinite(pulse_us):
-        return "The servo has no pulse: wake it first, then nudge it."
+        return tr("The servo has no pulse: wake it first, then nudge it.")
     if not SHORTEST_US <= pulse_us <= LONGEST_US:
-        return f"{pulse_us:g} µs is no pulse of the controller: its go from {SHORTEST_US:g} to {LONGEST_US:g} µs."
+        return tr(
+            "{pulse_us:g} µs is no pulse of the controller: its go from {shortest_us:g} to {longest_us:g} µs.",
+            pulse_us=pulse_us,
+            shortest_us=SHORTEST_US,
+            longest_us=LONGEST_US,
+        )
     return ""
 
 
@@ -111,7 +117,11 @@ def _wrong_gripper(marks: Marks) -> str:
     open_us, closed_us = (_pulse(marks, None, stage) for stage in GRIPPER_STAGES)
     if open_us is None or closed_us is None or abs(open_us - closed_us) >= LEAST_TRAVEL_US:
         return ""
-    return f"Open and closed have nearly the same pulse ({open_us:g} and {closed_us:g} µs): did the gripper move?"
+    return tr(
+        "Open and closed have nearly the same pulse ({open_us:g} and {closed_us:g} µs): did the gripper move?",
+        open_us=open_us,
+        closed_us=closed_us,
+    )
 
 
 def _too_close(robot: Robot, marks: Marks, joint: int) -> str:
@@ -119,9 +129,10 @@ def _too_close(robot: Robot, marks: Marks, joint: int) -> str:
     least = CLOSE if robot.joints[joint].revolute else CLOSE_SLIDING
     if abs(first - second) >= least:
         return ""
-    return (
-        f"Both marks are only {number_words(robot, joint, abs(first - second))} apart: errors in reading would grow. "
-        f"Choose poses at least {number_words(robot, joint, least)} apart."
+    return tr(
+        "Both marks are only {number} apart: errors in reading would grow. Choose poses at least {number2} apart.",
+        number=number_words(robot, joint, abs(first - second)),
+        number2=number_words(robot, joint, least),
     )
 
 
@@ -131,7 +142,10 @@ def _wrong_end(poses_us: list[float], stage: Stage, end_us: float, sign: int) ->
     pose, way = (min(poses_us), "shorter") if shorter else (max(poses_us), "longer")
     if (end_us <= pose + _SLACK_US) if shorter else (end_us >= pose - _SLACK_US):
         return ""
-    return (
-        f"{end_us:g} µs is the wrong way: this end has {way} pulses than the pose at {pose:g} µs. "
-        "Nudge on from that pose, not back through it."
+    return tr(
+        "{end_us:g} µs is the wrong way: this end has {way} pulses than the pose at {pose:g} µs. "
+        "Nudge on from that pose, not back through it.",
+        end_us=end_us,
+        way=way,
+        pose=pose,
     )

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from rvsim.device.calibration.fit import remarks_on
 from rvsim.device.calibration.marks import usual_range
+from rvsim.language import tr
 from rvsim.robot import GripperServo, Joint, Robot, Servo
 from rvsim.robot.servos import with_servo
 
@@ -51,10 +52,10 @@ def joint_result(robot: Robot, joint: int, new: Servo) -> Result:
     scale, step, unit = (math.radians(1.0), "degree", "µs/°") if what.revolute else (1e-3, "millimetre", "µs/mm")
     changes = (
         Change("direction", "", old.sign, new.sign),
-        Change("pulse at zero", "µs", old.zero_us, new.zero_us),
-        Change(f"pulse per {step}", unit, old.us_per_rad * scale, new.us_per_rad * scale),
-        Change("shortest pulse", "µs", old.min_us, new.min_us),
-        Change("longest pulse", "µs", old.max_us, new.max_us),
+        Change(tr("pulse at zero"), "µs", old.zero_us, new.zero_us),
+        Change(tr("pulse per {step}", step=step), unit, old.us_per_rad * scale, new.us_per_rad * scale),
+        Change(tr("shortest pulse"), "µs", old.min_us, new.min_us),
+        Change(tr("longest pulse"), "µs", old.max_us, new.max_us),
     )
     remarks = (
         *remarks_on(new, what.name, what.revolute),
@@ -68,14 +69,14 @@ def gripper_result(old: GripperServo, new: GripperServo) -> Result:
     """Of the gripper."""
     changes = (Change("open", "µs", old.open_us, new.open_us), Change("closed", "µs", old.closed_us, new.closed_us))
     turned = (new.open_us > new.closed_us) != (old.open_us > old.closed_us)
-    remarks = ("The gripper opens the other way round than before.",) if turned else ()
+    remarks = (tr("The gripper opens the other way round than before."),) if turned else ()
     return Result(None, "gripper", old, new, changes, remarks)
 
 
 def _odd_directions(old: Servo, new: Servo, joint: Joint) -> tuple[str, ...]:
     if old.sign == new.sign:
         return ()
-    return (f"The {joint.name} turns the other way round than before.",)
+    return (tr("The {name} turns the other way round than before.", name=joint.name),)
 
 
 def _odd_range(robot: Robot, joint: int, new: Servo) -> tuple[str, ...]:
@@ -83,8 +84,15 @@ def _odd_range(robot: Robot, joint: int, new: Servo) -> tuple[str, ...]:
     what = robot.joints[joint]
     least, largest = new.limits
     if min(largest, what.upper) <= max(least, what.lower):
-        return (f"The servo would turn the {what.name} outside of the arm's limits only. Mark its poses again.",)
+        return (
+            tr(
+                "The servo would turn the {name} outside of the arm's limits only. Mark its poses again.",
+                name=what.name,
+            ),
+        )
     before, after = usual_range(robot, joint), usual_range(with_servo(robot, joint, new), joint)
     if after[1] - after[0] < 0.5 * (before[1] - before[0]):
-        return (f"The {what.name} would reach less than half of what it could before. Are both ends marked?",)
+        return (
+            tr("The {name} would reach less than half of what it could before. Are both ends marked?", name=what.name),
+        )
     return ()

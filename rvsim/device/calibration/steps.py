@@ -7,6 +7,7 @@ from typing import Literal
 
 from rvsim.device.calibration.marks import MarkPlan
 from rvsim.device.calibration.words import number_words, pose_words
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -15,10 +16,10 @@ GRIPPER_STAGES: tuple[Stage, ...] = ("open", "closed")
 POSES: tuple[Stage, ...] = ("first pose", "second pose")
 ENDS: tuple[Stage, ...] = ("least end", "largest end")
 _TITLES: dict[Stage, str] = {
-    "first pose": "first pose",
-    "second pose": "second pose",
-    "least end": "how far one way",
-    "largest end": "how far the other way",
+    "first pose": tr_later("first pose"),
+    "second pose": tr_later("second pose"),
+    "least end": tr_later("how far one way"),
+    "largest end": tr_later("how far the other way"),
     "open": "open",
     "closed": "closed",
 }
@@ -62,33 +63,40 @@ def title(name: str, stage: Stage) -> str:
 def instruction(robot: Robot, joint: int | None, stage: Stage, plan: MarkPlan) -> str:
     """What to do, in words."""
     if joint is None:
-        what = "are as far apart as they go" if stage == "open" else "just touch, without humming"
-        return f"Nudge the gripper until its fingers {what}, then press Mark."
+        what = tr("are as far apart as they go") if stage == "open" else tr("just touch, without humming")
+        return tr("Nudge the gripper until its fingers {what}, then press Mark.", what=what)
     name, pose = robot.joints[joint].name, plan.postures[stage in ("second pose", "largest end")]
     words = pose_words(robot, joint, pose)
     if stage in POSES:
-        return f"Nudge the {name} until {words}, then press Mark.{_others(robot, joint, plan)}"
-    return (
-        f"Nudge the {name} on, past where {words}, as far as it may go without humming or touching anything, "
-        "then press Mark."
+        return tr(
+            "Nudge the {name} until {words}, then press Mark.{others}",
+            name=name,
+            words=words,
+            others=_others(robot, joint, plan),
+        )
+    return tr(
+        "Nudge the {name} on, past where {words}, as far as it may go without humming or touching anything, "
+        "then press Mark.",
+        name=name,
+        words=words,
     )
 
 
 def skip(joint: int | None, stage: Stage) -> str:
     """What skipping does."""
     if stage in ENDS:
-        return "The joint may go as far as it could before, measured in degrees."
-    return f"The {'gripper' if joint is None else 'joint'} keeps its present calibration."
+        return tr("The joint may go as far as it could before, measured in degrees.")
+    return tr("The {value} keeps its present calibration.", value="gripper" if joint is None else "joint")
 
 
 def _others(robot: Robot, joint: int, plan: MarkPlan) -> str:
     """How the rest of the arm should stand, where it is not at home."""
     posture = plan.postures[0]
     away = [
-        f"{other.name} about {number_words(robot, index, float(posture[index]))}"
+        tr("{name} about {number}", name=other.name, number=number_words(robot, index, float(posture[index])))
         for index, other in enumerate(robot.joints)
         if index != joint and posture[index] != robot.home[index]
     ]
     if not away:
-        return " The other joints stand about as at home."
-    return f" The other joints stand about as the scene shows: {', '.join(away)}."
+        return tr(" The other joints stand about as at home.")
+    return tr(" The other joints stand about as the scene shows: {away}.", away=", ".join(away))

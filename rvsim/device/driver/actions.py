@@ -8,6 +8,7 @@ from typing import Literal, Protocol, TypeAlias
 
 from numpy.typing import ArrayLike
 
+from rvsim.language import tr_later
 from rvsim.robot import GripperServo, Servo
 from rvsim.robot.arrays import FloatArray
 
@@ -120,7 +121,7 @@ class Limp:
 class StopAll:
     """The emergency stop: latches, and only `Reset` leads out."""
 
-    reason: str = "The emergency stop was pressed."
+    reason: str = tr_later("The emergency stop was pressed.")
 
 
 @dataclass(frozen=True)

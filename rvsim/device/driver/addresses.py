@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import parse_qsl, urlencode, urlsplit, urlunsplit
 
 from rvsim.device.driver.ports import PortChoice
+from rvsim.language import tr_later
 
 if TYPE_CHECKING:
     from rvsim.device.driver.languages import LanguageName
@@ -15,14 +16,16 @@ SCHEME = "al5b"
 OTHER_VIRTUAL = (
     PortChoice(
         "al5b://?seed=3",
-        "Virtual arm, wired otherwise",
-        "Some servos turn the other way and none is as the robot file says, as on a kit that was just built: "
-        "calibrate it.",
+        tr_later("Virtual arm, wired otherwise"),
+        tr_later(
+            "Some servos turn the other way and none is as the robot file says, as on a kit that was just built: "
+            "calibrate it."
+        ),
     ),
     PortChoice(
         "al5b://?potentiometers=1",
-        "Virtual arm with potentiometers",
-        "Its joints are measured, as with potentiometers on the controller's analog inputs.",
+        tr_later("Virtual arm with potentiometers"),
+        tr_later("Its joints are measured, as with potentiometers on the controller's analog inputs."),
     ),
 )
 

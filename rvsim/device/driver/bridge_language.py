@@ -27,6 +27,7 @@ from rvsim.device.bridge.messages import (
     Wake,
 )
 from rvsim.device.driver.language import Event, Latched, Measured, Named, Noticed, Reported, Unfit
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.servos import within_servos
@@ -34,7 +35,7 @@ from rvsim.robot.servos import within_servos
 _TOLERANCE = 1500.0  # hundredths of a degree, of a millimetre, of a percent
 _STOPS = 2  # at once: a frame may be lost on a bad wire
 _FRAME_BYTES = 6  # of an empty message
-_LATCHED = "The bridge has latched a stop. Reset it when nothing is in the arm's way."
+_LATCHED = tr_later("The bridge has latched a stop. Reset it when nothing is in the arm's way.")
 
 
 class BridgeLanguage:
@@ -44,7 +45,7 @@ class BridgeLanguage:
         robot: the arm; where it has servos their limits count as well.
     """
 
-    title = "Encoder bridge"
+    title = tr_later("Encoder bridge")
     named_answers = gentle = True
 
     def __init__(self, robot: Robot) -> None:
@@ -106,7 +107,7 @@ class BridgeLanguage:
 
     def jogged(self, _channel: int, _pulse_us: float) -> tuple[int, float] | str:
         """None: pulses are the bridge's own business."""
-        return "The bridge has its own calibration; there are no pulses to be sent."
+        return tr("The bridge has its own calibration; there are no pulses to be sent.")
 
     def set_points(self, raw: FloatArray, seconds: float) -> bytes:
         """One frame."""
@@ -178,17 +179,21 @@ class BridgeLanguage:
         yield from self._fares(message.status if isinstance(message, Axes | Encoders) else message)
 
     def _identified(self, message: Identity) -> Iterator[Event]:
-        yield Named(message.name or "encoder bridge")
+        yield Named(message.name or tr("encoder bridge"))
         if (message.joints, message.gripper) != (self._robot.dof, self._gripper):
-            found = f"{message.joints} joints{' and a gripper' if message.gripper else ''}"
-            yield Unfit(f"The bridge drives another arm than this one: {found}.")
+            found = tr(
+                "{joints} joints{value}", joints=message.joints, value=tr(" and a gripper") if message.gripper else ""
+            )
+            yield Unfit(tr("The bridge drives another arm than this one: {found}.", found=found))
 
     def _told(self, message: Axes) -> Iterator[Event]:
         if len(message.places) == self.axes:
             yield Reported(_numbers(message.places))
         names = (*self._robot.joint_names, "gripper")
         stalled = [name for name, stuck in zip(names, message.stalled, strict=False) if stuck]
-        yield Noticed(f"{', '.join(stalled)}: does not follow. Is something in the way?" if stalled else "")
+        yield Noticed(
+            tr("{stalled}: does not follow. Is something in the way?", stalled=", ".join(stalled)) if stalled else ""
+        )
 
     def _encoded(self, message: Encoders) -> Iterator[Event]:
         if len(message.places) == self.axes:

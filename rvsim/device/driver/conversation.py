@@ -17,6 +17,7 @@ from rvsim.device.driver.plan import shown
 from rvsim.device.driver.state import DriverState, MeasuredKind, Phase
 from rvsim.device.driver.watch import FORGOTTEN, Watch, disobeyed
 from rvsim.device.driver.wire import Log, Wire, no_log
+from rvsim.language import tr, tr_later
 from rvsim.playback.recording import Recorder, Recording
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -29,12 +30,14 @@ _BUSY, _IDLE = 0.05, 0.1  # [s] between questions
 _SETTLE = 1.0  # [s] a recording goes on after the end of its trajectory
 _CREEP = 15.0  # raw: two reports after a stop that differ by more show that the stop did not arrive
 _RECENT = 1.0  # [s] a report counts so long
-_SILENT = (
+_SILENT = tr_later(
     "The controller has not answered three times in a row. Is it switched on, is the cable in, is the baud rate right?"
 )
-_NOBODY = "Nothing answers at this port. Is the controller switched on, is it this port, is the baud rate right?"
-_GARBAGE = "What comes back at this port makes no sense. Is the baud rate right, and the language?"
-_LATE = "The controller answers late; the arm waits for it."
+_NOBODY = tr_later(
+    "Nothing answers at this port. Is the controller switched on, is it this port, is the baud rate right?"
+)
+_GARBAGE = tr_later("What comes back at this port makes no sense. Is the baud rate right, and the language?")
+_LATE = tr_later("The controller answers late; the arm waits for it.")
 
 
 class Conversation:
@@ -379,7 +382,9 @@ class Conversation:
 
     def _shown(self, axis: int, raw: FloatArray) -> str:
         value = float(self._language.values(raw)[axis])
-        return shown(self._robot, axis, value) if axis < self._robot.dof else f"{100.0 * value:.0f} % open"
+        return (
+            shown(self._robot, axis, value) if axis < self._robot.dof else tr("{value:.0f} % open", value=100.0 * value)
+        )
 
     def _check_rest(self, raw: FloatArray) -> None:
         """After a stop: where the axes stand. Where they still move the stop has not arrived, and is said again.

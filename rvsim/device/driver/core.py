@@ -31,16 +31,17 @@ from rvsim.device.driver.orders import LONGEST, Order, Paces
 from rvsim.device.driver.plan import Plan, approach_of, far_start, outside, plan_of
 from rvsim.device.driver.watch import Watch
 from rvsim.errors import RobotDefinitionError
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 
 _NOT_OPEN: dict[Mode, str] = {
-    "disconnected": "No arm is connected. Connect first.",
-    "connecting": "The controller has not answered yet. Wait a moment.",
-    "stopped": "The stop has latched. Reset it first.",
-    "lost": "The port is lost. Connect again.",
+    "disconnected": tr_later("No arm is connected. Connect first."),
+    "connecting": tr_later("The controller has not answered yet. Wait a moment."),
+    "stopped": tr_later("The stop has latched. Reset it first."),
+    "lost": tr_later("The port is lost. Connect again."),
 }
-_BUSY_RUNNING = Refusal("A trajectory is under way. Hold it first.")
-_BUSY_MOVING = Refusal("The arm is still moving. Wait until it has arrived, or hold it.")
+_BUSY_RUNNING = Refusal(tr_later("A trajectory is under way. Hold it first."))
+_BUSY_MOVING = Refusal(tr_later("The arm is still moving. Wait until it has arrived, or hold it."))
 
 
 class DriverCore(Conversation):
@@ -70,7 +71,9 @@ class DriverCore(Conversation):
         if self._mode != "open" or not names:
             return self._closed()
         verb = "is" if len(names) == 1 else "are"
-        return Refusal(f"{', '.join(names)} {verb} asleep. Wake them one after the other first.")
+        return Refusal(
+            tr("{names} {verb} asleep. Wake them one after the other first.", names=", ".join(names), verb=verb)
+        )
 
     def _name(self, axis: int) -> str:
         return self._robot.joint_names[axis] if axis < self._robot.dof else "gripper"
@@ -79,9 +82,13 @@ class DriverCore(Conversation):
         """The number of an axis."""
         n = self._robot.dof
         if axis == "gripper":
-            return n if self._m > n else Refusal("This arm has no gripper that can be driven.")
+            return n if self._m > n else Refusal(tr("This arm has no gripper that can be driven."))
         known = isinstance(axis, int | np.integer) and 0 <= axis < n
-        return int(axis) if known else Refusal(f"There is no joint {axis!r}; they count from 0 to {n - 1}.")
+        return (
+            int(axis)
+            if known
+            else Refusal(tr("There is no joint {axis!r}; they count from 0 to {n}.", axis=axis, n=n - 1))
+        )
 
     def _pose(self, q: ArrayLike) -> FloatArray | Refusal:
         """A pose (n,) of finite numbers."""
@@ -89,10 +96,10 @@ class DriverCore(Conversation):
         try:
             values = np.array(q, dtype=np.float64)
         except (TypeError, ValueError):
-            return Refusal("The pose is no list of numbers.")
+            return Refusal(tr("The pose is no list of numbers."))
         if values.shape != (n,):
-            return Refusal(f"The pose has the shape {values.shape}, the arm has {n} joints.")
-        return values if np.isfinite(values).all() else Refusal("The pose has a number that is none, or infinite.")
+            return Refusal(tr("The pose has the shape {shape}, the arm has {n} joints.", shape=values.shape, n=n))
+        return values if np.isfinite(values).all() else Refusal(tr("The pose has a number that is none, or infinite."))
 
     def _only(self, axis: int, value: float) -> FloatArray:
         """(m,) NaN but for one axis."""
@@ -104,16 +111,16 @@ class DriverCore(Conversation):
 
     def _connect(self, _: actions.Connect) -> Refusal | None:
         if self.wants_port:
-            return Refusal("The arm is connected already. Disconnect first.")
+            return Refusal(tr("The arm is connected already. Disconnect first."))
         if self._wire.has_urgent:
-            return Refusal("The last stop is still on its way. Connect in a moment.")
+            return Refusal(tr("The last stop is still on its way. Connect in a moment."))
         self._forget_all(self._wire.now)
         self._mode, self._reason = "connecting", ""
         return None
 
     def _disconnect(self, _: actions.Disconnect) -> Refusal | None:
         if self.wants_port and (self._moving or self._motion is not None):
-            self._latch("Disconnected while the arm moved.")
+            self._latch(tr("Disconnected while the arm moved."))
         self._belief = Belief(self._m)
         self._motion, self._recorded = None, None
         self._orders.clear()
@@ -129,7 +136,7 @@ class DriverCore(Conversation):
         if self._moving or self._motion is not None:
             return _BUSY_MOVING
         if self._belief.awake[axis]:
-            return Refusal(f"{self._name(axis)} is awake already.")
+            return Refusal(tr("{name} is awake already.", name=self._name(axis)))
         if (refusal := self._beyond(axis, action.value)) is not None:
             return refusal
         self._orders[f"wake {axis}"] = Order(self._language.raw(self._only(axis, action.value)), wake=True)
@@ -139,12 +146,16 @@ class DriverCore(Conversation):
         """Why an axis is not sent to a value."""
         if axis >= self._robot.dof:
             good = isinstance(value, int | float | np.number) and 0.0 <= value <= 1.0
-            return None if good else Refusal(f"The gripper goes from 0 (closed) to 1 (open), not to {value}.")
+            return (
+                None
+                if good
+                else Refusal(tr("The gripper goes from 0 (closed) to 1 (open), not to {value}.", value=value))
+            )
         pose = np.clip(self._robot.home, *self.limits.T)
         try:
             pose[axis] = value
         except (TypeError, ValueError):
-            return Refusal(f"{value!r} is no number.")
+            return Refusal(tr("{value!r} is no number.", value=value))
         return outside(self._robot, self.limits, pose[None])
 
     def _move_to(self, action: actions.MoveTo) -> Refusal | None:
@@ -215,7 +226,7 @@ class DriverCore(Conversation):
 
     def _jog(self, action: actions.JogPulse) -> Refusal | None:
         if not _finite(action.pulse_us):
-            return Refusal("The pulse is no number.")
+            return Refusal(tr("The pulse is no number."))
         found = self._language.jogged(action.channel, action.pulse_us)
         if isinstance(found, str):
             return Refusal(found)
@@ -246,9 +257,11 @@ class DriverCore(Conversation):
 
     def _reset(self, _: actions.Reset) -> Refusal | None:
         if self._mode != "stopped":
-            return self._closed() or Refusal("Nothing is stopped.")
+            return self._closed() or Refusal(tr("Nothing is stopped."))
         if self._rests is None or self._wire.questions.overdue(self._wire.now):
-            return Refusal("The controller has not answered since the stop. Look at its supply and its cable first.")
+            return Refusal(
+                tr("The controller has not answered since the stop. Look at its supply and its cable first.")
+            )
         self._mode, self._reason = "open", ""
         self._wire.follow(self._language.clear())
         return None
@@ -257,7 +270,7 @@ class DriverCore(Conversation):
         if self._moving or self._motion is not None:
             return _BUSY_MOVING
         if len(action.servos) != self._robot.dof:
-            return Refusal(f"{len(action.servos)} servos for {self._robot.dof} joints.")
+            return Refusal(tr("{count} servos for {dof} joints.", count=len(action.servos), dof=self._robot.dof))
         try:
             robot = replace(self._robot, servos=tuple(action.servos), gripper_servo=action.gripper_servo)
             same = self._language.use(robot)
@@ -285,7 +298,7 @@ def _finite(value: object) -> bool:
 def _bad_time(seconds: float | None) -> Refusal | None:
     if seconds is None or (_finite(seconds) and 0.0 <= seconds <= LONGEST):
         return None
-    return Refusal(f"A move takes from 0 to {LONGEST:g} s, not {seconds} s.")
+    return Refusal(tr("A move takes from 0 to {longest:g} s, not {seconds} s.", longest=LONGEST, seconds=seconds))
 
 
 _DEEDS: dict[type, Callable[[DriverCore, Any], Refusal | None]] = {

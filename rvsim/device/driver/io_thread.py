@@ -24,6 +24,7 @@ from rvsim.device.driver.languages import LanguageName
 from rvsim.device.driver.outbox import BITS
 from rvsim.device.driver.state import DriverState
 from rvsim.device.wire_log import WireLog
+from rvsim.language import tr, tr_later
 from rvsim.playback.recording import Recording
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.arrays import FloatArray
@@ -127,7 +128,7 @@ class ArmDriver:
     def connect(self) -> Refusal | None:
         """Open the port and ask the board for its name. Nothing moves. Also after the port was lost."""
         if self._closing:
-            return Refusal("This driver has been closed.")
+            return Refusal(tr("This driver has been closed."))
         refusal = self._do(actions.Connect())
         if self._thread is None:
             self._thread = threading.Thread(target=self._live, name=f"arm at {self.url}", daemon=True)
@@ -172,7 +173,7 @@ class ArmDriver:
         """Switch a joint (from 0) or "gripper" off."""
         return self._do(actions.Limp(axis))
 
-    def stop(self, reason: str = "The emergency stop was pressed.") -> Refusal | None:
+    def stop(self, reason: str = tr_later("The emergency stop was pressed.")) -> Refusal | None:
         """The emergency stop. Latches."""
         return self._do(actions.StopAll(reason))
 
@@ -219,11 +220,15 @@ class ArmDriver:
             try:
                 self._turn()
             except (serial.SerialException, OSError) as problem:
-                self._lose(f"The port {self.url} is lost: {_said_once(problem, self.url)}")
+                self._lose(
+                    tr("The port {url} is lost: {said_once}", url=self.url, said_once=_said_once(problem, self.url))
+                )
             except Exception as problem:  # whatever it is: the arm must not be left without a driver
                 _logger.exception("the driver's thread")
                 self._stop_without_core()
-                self._lose(f"Something went wrong inside the driver: {problem!r}. The port is closed.")
+                self._lose(
+                    tr("Something went wrong inside the driver: {problem!r}. The port is closed.", problem=problem)
+                )
             self._wake.wait(_TICK if self._state.phase not in ("disconnected", "lost") else _IDLE_TICK)
             self._wake.clear()
 
@@ -243,7 +248,13 @@ class ArmDriver:
             )
             port.reset_input_buffer()
         except (serial.SerialException, OSError, ValueError, ImportError) as problem:
-            self._lose(f"The port {self.url} cannot be opened: {_said_once(problem, self.url)}")
+            self._lose(
+                tr(
+                    "The port {url} cannot be opened: {said_once}",
+                    url=self.url,
+                    said_once=_said_once(problem, self.url),
+                )
+            )
             return
         self._port, self._arm = port, getattr(port, "arm", None)
 

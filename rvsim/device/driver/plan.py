@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.device.driver.actions import Playable, Refusal
+from rvsim.language import tr
 from rvsim.motion import joint_move
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
@@ -62,12 +63,12 @@ def plan_of(trajectory: Playable, robot: Robot, limits: FloatArray) -> Plan | Re
     """The trajectory as a table, or why it is not run: no number, or outside limits (n, 2) of arm and servos."""
     duration = float(trajectory.duration)
     if not (math.isfinite(duration) and duration > 0.0):
-        return Refusal(f"The trajectory lasts {duration:g} s; it must last some time.")
+        return Refusal(tr("The trajectory lasts {duration:g} s; it must last some time.", duration=duration))
     times = np.linspace(0.0, duration, min(max(math.ceil(duration / _STEP), 2), _MOST))
     poses = _sampled(trajectory, times)
     if poses.shape != (len(times), robot.dof):
         joints = poses.shape[-1] if poses.ndim else 0
-        return Refusal(f"The trajectory has {joints} joints, the arm has {robot.dof}.")
+        return Refusal(tr("The trajectory has {joints} joints, the arm has {dof}.", joints=joints, dof=robot.dof))
     refusal = outside(robot, limits, poses, times) or _too_quick(robot, poses, times)
     return refusal or Plan(times, poses)
 
@@ -96,7 +97,15 @@ def _too_quick(robot: Robot, poses: FloatArray, times: FloatArray) -> Refusal | 
     index, joint = beyond[0]
     found, can = (shown(robot, joint, speed) for speed in (speeds[index, joint], most[joint]))
     name = robot.joint_names[joint]
-    return Refusal(f"{name} would move at {found}/s{_when(times, index)}; it can do {can}/s. Give it more time.")
+    return Refusal(
+        tr(
+            "{name} would move at {found}/s{when}; it can do {can}/s. Give it more time.",
+            name=name,
+            found=found,
+            when=_when(times, index),
+            can=can,
+        )
+    )
 
 
 def outside(robot: Robot, limits: FloatArray, poses: FloatArray, times: FloatArray | None = None) -> Refusal | None:
@@ -104,7 +113,13 @@ def outside(robot: Robot, limits: FloatArray, poses: FloatArray, times: FloatArr
     wrong = np.argwhere(~np.isfinite(poses))
     if len(wrong):
         index, joint = wrong[0]
-        return Refusal(f"{robot.joint_names[joint]}{_when(times, index)} is no number, so nothing is sent.")
+        return Refusal(
+            tr(
+                "{joint_names}{when} is no number, so nothing is sent.",
+                joint_names=robot.joint_names[joint],
+                when=_when(times, index),
+            )
+        )
     excess = np.maximum(limits[:, 0] - poses, poses - limits[:, 1])
     beyond = np.argwhere(excess > _ROUNDING)
     if not len(beyond):
@@ -112,9 +127,13 @@ def outside(robot: Robot, limits: FloatArray, poses: FloatArray, times: FloatArr
     index, joint = beyond[0]
     lower, upper = (shown(robot, joint, end) for end in limits[joint])
     found = shown(robot, joint, poses[index, joint], instead_of=limits[joint])
-    sentence = (
-        f"{robot.joint_names[joint]} would be at {found}{_when(times, index)}; arm and servo together allow {lower} to "
-        f"{upper}."
+    sentence = tr(
+        "{joint_names} would be at {found}{when}; arm and servo together allow {lower} to {upper}.",
+        joint_names=robot.joint_names[joint],
+        found=found,
+        when=_when(times, index),
+        lower=lower,
+        upper=upper,
     )
     return Refusal(sentence)
 
@@ -126,7 +145,14 @@ def far_start(robot: Robot, here: FloatArray, start: FloatArray) -> Refusal | No
         return None
     wanted, found = (shown(robot, joint, float(pose[joint])) for pose in (start, here))
     name = robot.joint_names[joint]
-    return Refusal(f"The trajectory begins with {name} at {wanted}, but the arm is at {found}. Go to its start first.")
+    return Refusal(
+        tr(
+            "The trajectory begins with {name} at {wanted}, but the arm is at {found}. Go to its start first.",
+            name=name,
+            wanted=wanted,
+            found=found,
+        )
+    )
 
 
 def shown(robot: Robot, joint: int, value: float, instead_of: Sequence[float] | FloatArray = ()) -> str:
@@ -141,4 +167,4 @@ def shown(robot: Robot, joint: int, value: float, instead_of: Sequence[float] | 
 
 
 def _when(times: FloatArray | None, index: int) -> str:
-    return "" if times is None else f" after {times[index]:.2f} s"
+    return "" if times is None else tr(" after {times:.2f} s", times=times[index])

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from rvsim.language import tr, tr_later
+
 
 class PortChoice(NamedTuple):
     """One line of a list to choose from.
@@ -20,7 +22,9 @@ class PortChoice(NamedTuple):
 
 
 VIRTUAL = PortChoice(
-    "al5b://", "Virtual AL5B", "Simulated in this program, with a controller that speaks as a real one."
+    "al5b://",
+    tr_later("Virtual AL5B"),
+    tr_later("Simulated in this program, with a controller that speaks as a real one."),
 )
 
 
@@ -34,4 +38,4 @@ def available_ports() -> tuple[PortChoice, ...]:
 
 def _detail(description: str | None, device: str) -> str:
     known = description not in (None, "", "n/a", device)
-    return str(description) if known else "Serial port"
+    return str(description) if known else tr("Serial port")

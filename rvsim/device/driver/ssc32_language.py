@@ -13,6 +13,7 @@ from rvsim.device.ssc32.host_side import encode
 from rvsim.device.ssc32.lines import CR
 from rvsim.device.ssc32.replies import ReplyDecoder
 from rvsim.device.virtual.inputs import ANALOG, potentiometer_pulse
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.servo import CHANNELS, LONGEST_US, SHORTEST_US
@@ -112,7 +113,9 @@ class Ssc32Language:
         """The axis, and the pulse held within what the controller can."""
         if channel not in self._channels:
             known = ", ".join(map(str, self._channels))
-            return f"No joint hangs on channel {channel}; the arm's channels are {known}."
+            return tr(
+                "No joint hangs on channel {channel}; the arm's channels are {known}.", channel=channel, known=known
+            )
         return self._channels.index(channel), float(np.clip(round(pulse_us), SHORTEST_US, LONGEST_US))
 
     def set_points(self, raw: FloatArray, seconds: float) -> bytes:

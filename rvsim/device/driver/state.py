@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from rvsim.language import tr_later
 from rvsim.robot.arrays import FloatArray
 
 Phase = Literal[
@@ -21,11 +22,13 @@ Phase = Literal[
 MeasuredKind = Literal["nothing", "commanded pulse", "potentiometers", "encoders"]
 
 MEASURED_WORDS: dict[MeasuredKind, str] = {
-    "nothing": "Nothing is measured: the board has not answered.",
-    "commanded pulse": "The pulses that the controller reports (QP) are those it sends, not a measurement: "
-    "hobby servos do not tell where they are.",
-    "potentiometers": "Measured by potentiometers on the controller's analog inputs.",
-    "encoders": "Measured by the encoders of the bridge.",
+    "nothing": tr_later("Nothing is measured: the board has not answered."),
+    "commanded pulse": tr_later(
+        "The pulses that the controller reports (QP) are those it sends, not a measurement: "
+        "hobby servos do not tell where they are."
+    ),
+    "potentiometers": tr_later("Measured by potentiometers on the controller's analog inputs."),
+    "encoders": tr_later("Measured by the encoders of the bridge."),
 }
 
 

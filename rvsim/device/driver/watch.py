@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from rvsim.device.driver.belief import Belief
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 
-FORGOTTEN = (
+FORGOTTEN = tr_later(
     "The controller has forgotten where its servos are, as after a brown-out: the supply may be too weak. "
     "All joints are asleep again; wake them one after the other."
 )
@@ -48,7 +49,10 @@ class Watch:
 
 def disobeyed(name: str, should: str, reported: str) -> str:
     """What to say then."""
-    return (
-        f"The controller does not do what it is told: {name} should be at {should}, it reports {reported}. "
-        "Another program may use it, or lines get lost."
+    return tr(
+        "The controller does not do what it is told: {name} should be at {should}, it reports {reported}. "
+        "Another program may use it, or lines get lost.",
+        name=name,
+        should=should,
+        reported=reported,
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from rvsim.device.link.options import ArmOptions, new_arm
 from rvsim.errors import DeviceError
+from rvsim.language import tr
 
 if TYPE_CHECKING:
     from rvsim.device.virtual.arm import VirtualArm
@@ -39,9 +40,15 @@ def take_board(url: str, options: ArmOptions, now: float) -> tuple[VirtualArm, f
         if kept is None:
             kept = _boards[options.board] = _Kept(new_arm(options), described, closed_at=now)
         elif kept.options != described:
-            raise DeviceError(url, f"the board “{options.board}” is another arm", "Give this one another board=NAME.")
+            raise DeviceError(
+                url,
+                tr("the board “{board}” is another arm", board=options.board),
+                tr("Give this one another board=NAME."),
+            )
         elif kept.open:
-            raise DeviceError(url, "this port is open already", "Close it there first; two programs garble each other.")
+            raise DeviceError(
+                url, tr("this port is open already"), tr("Close it there first; two programs garble each other.")
+            )
         kept.open = True
         return kept.arm, kept.closed_at
 

@@ -9,6 +9,7 @@ from urllib.parse import parse_qsl, urlsplit
 
 from rvsim.device.virtual.contract import Language
 from rvsim.errors import DeviceError, did_you_mean
+from rvsim.language import tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.device.virtual.arm import VirtualArm
@@ -45,7 +46,11 @@ def options_of(url: str) -> ArmOptions:
     """
     parts = urlsplit(url)
     if parts.scheme.lower() != SCHEME or parts.netloc or parts.path.strip("/") or parts.fragment:
-        raise DeviceError(url, "this is no address of a virtual arm", f"Write it like {SCHEME}://?robot=al5b&seed=3.")
+        raise DeviceError(
+            url,
+            tr("this is no address of a virtual arm"),
+            tr("Write it like {scheme}://?robot=al5b&seed=3.", scheme=SCHEME),
+        )
     found = dict(parse_qsl(parts.query, keep_blank_values=True))
     return ArmOptions(**{name: _value(url, name, text) for name, text in found.items()})
 
@@ -65,11 +70,13 @@ def new_arm(options: ArmOptions) -> VirtualArm:
 
 def _value(url: str, name: str, text: str) -> Any:
     if name not in _READERS:
-        raise DeviceError(url, f"there is no option “{name}”", did_you_mean(name, tuple(_READERS)))
+        raise DeviceError(url, tr("there is no option “{name}”", name=name), did_you_mean(name, tuple(_READERS)))
     rule, read = _READERS[name]
     value = read(text)
     if value is None:
-        raise DeviceError(url, f"the option {name} is “{text}”", f"It must be {rule}.")
+        raise DeviceError(
+            url, tr("the option {name} is “{text}”", name=name, text=text), tr("It must be {rule}.", rule=rule)
+        )
     return value
 
 
@@ -94,10 +101,10 @@ def _switch(text: str) -> bool | None:
 
 
 _READERS: Mapping[str, tuple[str, Callable[[str], Any]]] = {
-    "robot": ("the name of an arm or a robot file", _name),
-    "seed": ("a whole number, 0 or more", _whole),
+    "robot": (tr_later("the name of an arm or a robot file"), _name),
+    "seed": (tr_later("a whole number, 0 or more"), _whole),
     "language": (" or ".join(get_args(Language)), _language),
     "board": ("a name", _name),
     "potentiometers": ("0 or 1", _switch),
-    "board_baud": ("a rate such as 9600", _rate),
+    "board_baud": (tr_later("a rate such as 9600"), _rate),
 }

@@ -7,6 +7,7 @@ from typing import Protocol
 from rvsim.device.link.line import Line
 from rvsim.device.virtual.clock import NANO, Clock
 from rvsim.errors import SettingError
+from rvsim.language import tr
 
 # Answers are picked up once in a USB frame, as adapters do; after a silence once in a servo frame, which costs little.
 _PICK_UP_NS, _IDLE_PICK_UP_NS = NANO // 1000, NANO // 50
@@ -159,5 +160,5 @@ def _after(now: int, step: int) -> int:
 
 def _checked(baud: int) -> int:
     if baud < 1:
-        raise SettingError("baud", baud, "1 or more")
+        raise SettingError("baud", baud, tr("1 or more"))
     return baud

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from rvsim.errors import DeviceError
+from rvsim.language import tr, tr_later
 
 _DATA = 0  # the first byte of each packet that carries data; other values are flags
 _TERMINALS = ("/dev/pts/", "/dev/tty")
@@ -50,7 +51,9 @@ class PtyWire:
         try:
             import tty
         except ImportError:
-            raise DeviceError(self.address, "this system has no pseudo-terminals", "Serve on TCP instead.") from None
+            raise DeviceError(
+                self.address, tr("this system has no pseudo-terminals"), tr("Serve on TCP instead.")
+            ) from None
         self._check_place()
         # Held open by us as well, the terminal outlives its clients and keeps their settings.
         self._master, self._slave = os.openpty()
@@ -62,7 +65,9 @@ class PtyWire:
             self._point(os.ttyname(self._slave))
         except OSError as problem:
             self.close()
-            raise DeviceError(self.address, f"the link cannot be made ({problem.strerror})", _ELSEWHERE) from problem
+            raise DeviceError(
+                self.address, tr("the link cannot be made ({strerror})", strerror=problem.strerror), _ELSEWHERE
+            ) from problem
 
     def close(self) -> None:
         """Take the link away, where it is still ours, and hang up."""
@@ -126,11 +131,11 @@ class PtyWire:
         if self.link.is_symlink():
             target = os.readlink(self.link)
             if self.link.exists() and not target.startswith(_TERMINALS):
-                raise DeviceError(self.address, f"a link to {target} is there already", _ELSEWHERE)
+                raise DeviceError(self.address, tr("a link to {target} is there already", target=target), _ELSEWHERE)
         elif self.link.exists():
-            raise DeviceError(self.address, "something else is there already", _ELSEWHERE)
+            raise DeviceError(self.address, tr("something else is there already"), _ELSEWHERE)
         elif not self.link.parent.is_dir():
-            raise DeviceError(self.address, f"there is no folder {self.link.parent}", _ELSEWHERE)
+            raise DeviceError(self.address, tr("there is no folder {parent}", parent=self.link.parent), _ELSEWHERE)
 
     def _point(self, terminal: str) -> None:
         new = self.link.with_name(f".{self.link.name}.{os.getpid()}")
@@ -143,7 +148,7 @@ class PtyWire:
         return self.link.is_symlink() and os.readlink(self.link) == terminal
 
 
-_ELSEWHERE = "Choose another place for the link."
+_ELSEWHERE = tr_later("Choose another place for the link.")
 _RATES = (1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 500000, 921600, 1000000)
 
 

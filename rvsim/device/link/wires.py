@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import Protocol
 
 from rvsim.errors import DeviceError
+from rvsim.language import tr
 
 
 class Wire(Protocol):
@@ -66,7 +67,7 @@ class TcpWire:
     @property
     def address(self) -> str:
         """`socket://127.0.0.1:54321`."""
-        return f"socket://127.0.0.1:{self._port}"
+        return tr("socket://127.0.0.1:{port}", port=self._port)
 
     def open(self) -> None:
         """Listen.
@@ -82,8 +83,10 @@ class TcpWire:
             door.listen()
         except (OSError, OverflowError) as problem:
             door.close()
-            remedy = "Another program may have it: choose another port, or 0 for a free one."
-            raise DeviceError(self.address, f"this port cannot be opened ({problem})", remedy) from problem
+            remedy = tr("Another program may have it: choose another port, or 0 for a free one.")
+            raise DeviceError(
+                self.address, tr("this port cannot be opened ({problem})", problem=problem), remedy
+            ) from problem
         door.setblocking(False)
         self._door, self._port = door, door.getsockname()[1]
 

@@ -34,6 +34,7 @@ from rvsim.device.ssc32.commands import (
     WriteRegister,
 )
 from rvsim.device.ssc32.lines import CR, LONGEST_LINE, next_line
+from rvsim.language import tr
 
 _STEP = 4096  # bytes taken at once: cutting lines off the front of a longer buffer would cost its length each time
 _HIGH = bytes(range(0x80, 0x100))
@@ -57,7 +58,7 @@ def parse_line(line: bytes) -> Command | None:
 def read_line(line: bytes) -> Command | Dropped | None:
     """As `parse_line`, but with the reason why a line is dropped; None where it is empty."""
     if len(line) > LONGEST_LINE:
-        return Dropped(f"the line is longer than {LONGEST_LINE} bytes")
+        return Dropped(tr("the line is longer than {longest_line} bytes", longest_line=LONGEST_LINE))
     line = line.translate(None, _HIGH)
     if text := _TEXT.fullmatch(line):  # the only line whose blanks and small letters count
         return AppendStartup(text[1].translate(None, _CONTROL).decode("ascii")[: ranges.LONGEST_STARTUP])
@@ -69,7 +70,7 @@ def _read(letters: str) -> Command | Dropped:
     for pattern, build in _KINDS:
         if match := pattern.fullmatch(letters):
             return build(match)
-    return Dropped("it is no line of this language, or mixes several kinds of commands")
+    return Dropped(tr("it is no line of this language, or mixes several kinds of commands"))
 
 
 class _OutsideError(Exception):
@@ -79,7 +80,9 @@ class _OutsideError(Exception):
 def _number(digits: str, what: str, ends: tuple[int, int]) -> int:
     value = int(digits)
     if not ranges.within(value, ends):
-        raise _OutsideError(f"the {what} {value} is not in {ends[0]} to {ends[1]}")
+        raise _OutsideError(
+            tr("the {what} {value} is not in {ends} to {ends2}", what=what, value=value, ends=ends[0], ends2=ends[1])
+        )
     return value
 
 
@@ -124,7 +127,7 @@ def _levels(match: re.Match[str]) -> SetLevels:
 
 def _byte(match: re.Match[str]) -> SetByte:
     return SetByte(
-        _number(match[1], "bank", ranges.BANK_RANGE), _number(match[2], "number of eight pins", ranges.BYTE_RANGE)
+        _number(match[1], "bank", ranges.BANK_RANGE), _number(match[2], tr("number of eight pins"), ranges.BYTE_RANGE)
     )
 
 
@@ -135,7 +138,9 @@ def _pulses(match: re.Match[str]) -> QueryPulses:
 def _digital(match: re.Match[str]) -> ReadDigital:
     inputs = re.findall("([A-F])(L?)", match[0])
     if len(inputs) > ranges.MOST_DIGITAL_INPUTS:
-        raise _OutsideError(f"more than {ranges.MOST_DIGITAL_INPUTS} inputs in one line")
+        raise _OutsideError(
+            tr("more than {most_digital_inputs} inputs in one line", most_digital_inputs=ranges.MOST_DIGITAL_INPUTS)
+        )
     return ReadDigital(tuple((ranges.DIGITAL_INPUTS.index(name), bool(latched)) for name, latched in inputs))
 
 
@@ -148,11 +153,13 @@ def _register(digits: str) -> int:
 
 
 def _write_register(match: re.Match[str]) -> WriteRegister:
-    return WriteRegister(_register(match[1]), _number(match[2], "value of the register", ranges.REGISTER_VALUE_RANGE))
+    return WriteRegister(
+        _register(match[1]), _number(match[2], tr("value of the register"), ranges.REGISTER_VALUE_RANGE)
+    )
 
 
 def _delete(match: re.Match[str]) -> DeleteStartup:
-    return DeleteStartup(_number(match[1], "number of characters", ranges.DELETE_RANGE))
+    return DeleteStartup(_number(match[1], tr("number of characters"), ranges.DELETE_RANGE))
 
 
 def _checked(build: Callable[[re.Match[str]], Command]) -> Callable[[re.Match[str]], Command | Dropped]:

@@ -6,6 +6,7 @@ import random
 from dataclasses import replace
 
 from rvsim.errors import RobotDefinitionError
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.servo import LONGEST_US, SHORTEST_US, GripperServo, Servo
 
@@ -25,8 +26,10 @@ def hidden_servos(robot: Robot, seed: int) -> tuple[tuple[Servo, ...], GripperSe
         RobotDefinitionError: the arm has no servos.
     """
     if not robot.servos:
-        raise RobotDefinitionError(robot.name, "it has no [[servo]] tables, so there is nothing to drive on a wire.")
-    dice = random.Random(f"servos of {robot.name} {seed}")
+        raise RobotDefinitionError(
+            robot.name, tr("it has no [[servo]] tables, so there is nothing to drive on a wire.")
+        )
+    dice = random.Random(tr("servos of {name} {seed}", name=robot.name, seed=seed))
     servos = tuple(_hidden_servo(servo, dice, flips=seed != 0) for servo in robot.servos)
     gripper = robot.gripper_servo
     return servos, None if gripper is None else _hidden_gripper(gripper, dice, flips=seed != 0)

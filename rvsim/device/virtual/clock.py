@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from rvsim.errors import SettingError
+from rvsim.language import tr
 
 NANO = 1_000_000_000
 FRAME_NS = 20_000_000  # a hobby servo gets a pulse every 20 ms
@@ -31,7 +32,7 @@ class Clock:
             SettingError: dt is negative or no number.
         """
         if not (math.isfinite(dt) and dt >= 0.0):
-            raise SettingError("dt", dt, "a number of seconds, 0 or more")
+            raise SettingError("dt", dt, tr("a number of seconds, 0 or more"))
         passed = dt * NANO + self._rest
         whole = round(passed)
         rest = passed - whole

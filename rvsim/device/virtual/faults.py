@@ -5,46 +5,57 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
+from rvsim.language import tr_later
+
 
 class Fault(StrEnum):
     """One thing that goes wrong; `FAULT_WORDS` says what it does."""
 
-    NO_REPLY = "no reply"
-    LATE_REPLY = "late reply"
-    SPLIT_REPLY = "reply split"
-    DUPLICATED_REPLY = "reply duplicated"
-    CORRUPTED_REPLY = "reply corrupted"
+    NO_REPLY = tr_later("no reply")
+    LATE_REPLY = tr_later("late reply")
+    SPLIT_REPLY = tr_later("reply split")
+    DUPLICATED_REPLY = tr_later("reply duplicated")
+    CORRUPTED_REPLY = tr_later("reply corrupted")
     WRONG_BAUD = "wrong baud"
-    STUCK_MOVING = "stuck “moving”"
-    BROWN_OUT = "brown-out now"
-    BROWN_OUT_IN_MOVE = "brown-out in mid-move"
-    STALLED_SERVO = "stalled servo"
-    SAGGING_SERVO = "sagging servo"
-    SATURATED_BUFFER = "saturated buffer"
-    PORT_VANISHES = "port vanishes"
-    QP_WITH_OFFSET = "QP with offset"
-    FIRST_ANALOG = "invalid first analog read"
+    STUCK_MOVING = tr_later("stuck “moving”")
+    BROWN_OUT = tr_later("brown-out now")
+    BROWN_OUT_IN_MOVE = tr_later("brown-out in mid-move")
+    STALLED_SERVO = tr_later("stalled servo")
+    SAGGING_SERVO = tr_later("sagging servo")
+    SATURATED_BUFFER = tr_later("saturated buffer")
+    PORT_VANISHES = tr_later("port vanishes")
+    QP_WITH_OFFSET = tr_later("QP with offset")
+    FIRST_ANALOG = tr_later("invalid first analog read")
 
 
 FAULT_WORDS: dict[Fault, str] = {
-    Fault.NO_REPLY: "The board does what it is told but answers nothing.",
-    Fault.LATE_REPLY: "Every answer comes 0.6 s late.",
-    Fault.SPLIT_REPLY: "Answers come in single bytes, 15 ms apart.",
-    Fault.DUPLICATED_REPLY: "Every answer comes twice.",
-    Fault.CORRUPTED_REPLY: "One answered byte in four has a wrong bit.",
-    Fault.WRONG_BAUD: "Host and board speak at different speeds: both read garbage, and nothing is acted upon.",
-    Fault.STUCK_MOVING: "The board says for ever that a move is under way.",
-    Fault.BROWN_OUT: "When switched on, the supply breaks down for 0.4 s: the board starts again and has forgotten "
-    "all positions; servos go limp.",
-    Fault.BROWN_OUT_IN_MOVE: "Each move, or row of set-points, that has lasted 0.2 s breaks the supply down for "
-    "0.4 s: the board forgets all positions, servos go limp.",
-    Fault.STALLED_SERVO: "A servo is jammed: whatever its pulse, its joint stays where it is.",
-    Fault.SAGGING_SERVO: "A servo is weak: its joint sags six times as far under its load.",
-    Fault.SATURATED_BUFFER: "The board empties its buffer of 64 bytes at 250 bytes/s only: what does not fit is lost.",
-    Fault.PORT_VANISHES: "The port is gone, as if the plug were pulled; the board keeps its last pulses.",
-    Fault.QP_WITH_OFFSET: "Old firmware: QP answers the pulse with the channel's offset (PO) added.",
-    Fault.FIRST_ANALOG: "An analog input that has not been read for 0.5 s answers a wrong byte first, not only once "
-    "after power-up.",
+    Fault.NO_REPLY: tr_later("The board does what it is told but answers nothing."),
+    Fault.LATE_REPLY: tr_later("Every answer comes 0.6 s late."),
+    Fault.SPLIT_REPLY: tr_later("Answers come in single bytes, 15 ms apart."),
+    Fault.DUPLICATED_REPLY: tr_later("Every answer comes twice."),
+    Fault.CORRUPTED_REPLY: tr_later("One answered byte in four has a wrong bit."),
+    Fault.WRONG_BAUD: tr_later(
+        "Host and board speak at different speeds: both read garbage, and nothing is acted upon."
+    ),
+    Fault.STUCK_MOVING: tr_later("The board says for ever that a move is under way."),
+    Fault.BROWN_OUT: tr_later(
+        "When switched on, the supply breaks down for 0.4 s: the board starts again and has forgotten "
+        "all positions; servos go limp."
+    ),
+    Fault.BROWN_OUT_IN_MOVE: tr_later(
+        "Each move, or row of set-points, that has lasted 0.2 s breaks the supply down for "
+        "0.4 s: the board forgets all positions, servos go limp."
+    ),
+    Fault.STALLED_SERVO: tr_later("A servo is jammed: whatever its pulse, its joint stays where it is."),
+    Fault.SAGGING_SERVO: tr_later("A servo is weak: its joint sags six times as far under its load."),
+    Fault.SATURATED_BUFFER: tr_later(
+        "The board empties its buffer of 64 bytes at 250 bytes/s only: what does not fit is lost."
+    ),
+    Fault.PORT_VANISHES: tr_later("The port is gone, as if the plug were pulled; the board keeps its last pulses."),
+    Fault.QP_WITH_OFFSET: tr_later("Old firmware: QP answers the pulse with the channel's offset (PO) added."),
+    Fault.FIRST_ANALOG: tr_later(
+        "An analog input that has not been read for 0.5 s answers a wrong byte first, not only once after power-up."
+    ),
 }
 
 LATENESS = 0.6  # [s]

@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from typing import Any
 
 from rvsim.errors import SessionFileError
+from rvsim.language import tr, tr_later
 
 LARGEST = 16 * 1024 * 1024  # [bytes]
 _MOST_LISTS, _MOST_VALUES = 200_000, 2_000_000
 _LINE = 110
-_SPEAKS = "A session file of rvsim is JSON text in UTF-8."
+_SPEAKS = tr_later("A session file of rvsim is JSON text in UTF-8.")
 
 
 # --- writing -------------------------------------------------------------------------------------------------------
@@ -72,13 +73,13 @@ def json_value(data: bytes, path: object) -> Any:
     try:
         value = json.loads(text, object_pairs_hook=_without_doubles, parse_constant=_refuse_constant)
     except RecursionError:
-        raise SessionFileError(path, "the file", "lists nested too deeply", "a session") from None
+        raise SessionFileError(path, tr("the file"), tr("lists nested too deeply"), "a session") from None
     except json.JSONDecodeError as problem:
-        where = f"line {problem.lineno}, column {problem.colno}"
-        raise SessionFileError(path, where, f"a mistake ({problem.msg})", "JSON", _SPEAKS) from None
+        where = tr("line {lineno}, column {colno}", lineno=problem.lineno, colno=problem.colno)
+        raise SessionFileError(path, where, tr("a mistake ({msg})", msg=problem.msg), "JSON", _SPEAKS) from None
     except ValueError as problem:  # of ours, or Python's refusal of an integer of thousands of digits
-        found = str(problem) if isinstance(problem, _MistakeError) else "an integer of thousands of digits"
-        raise SessionFileError(path, "the file", found, "JSON with plain numbers and each key once") from None
+        found = str(problem) if isinstance(problem, _MistakeError) else tr("an integer of thousands of digits")
+        raise SessionFileError(path, tr("the file"), found, tr("JSON with plain numbers and each key once")) from None
     _refuse_half_characters(text, value, path)
     return value
 
@@ -89,16 +90,16 @@ class _MistakeError(ValueError):
 
 def _text(data: bytes, path: object) -> str:
     if len(data) > LARGEST:
-        found = "a large file"
-        raise SessionFileError(path, "the file", found, f"at most {LARGEST // 1024 // 1024} MB")
+        found = tr("a large file")
+        raise SessionFileError(path, tr("the file"), found, tr("at most {largest} MB", largest=LARGEST // 1024 // 1024))
     if data.count(b"[") + data.count(b"{") > _MOST_LISTS or data.count(b",") > _MOST_VALUES:
-        raise SessionFileError(path, "the file", "hundreds of thousands of lists", "a session")
+        raise SessionFileError(path, tr("the file"), tr("hundreds of thousands of lists"), "a session")
     try:
         return data.decode("utf-8-sig")  # some editors put a mark before the first letter
     except UnicodeDecodeError as problem:
         line = data.count(b"\n", 0, problem.start) + 1
-        found = f"the byte 0x{data[problem.start]:02x}"
-        raise SessionFileError(path, f"line {line}", found, "UTF-8 text", _SPEAKS) from None
+        found = tr("the byte 0x{data:02x}", data=data[problem.start])
+        raise SessionFileError(path, tr("line {line}", line=line), found, "UTF-8 text", _SPEAKS) from None
 
 
 def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -106,12 +107,12 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(table) < len(pairs):
         keys = [key for key, _ in pairs]
         twice = next(key for key in keys if keys.count(key) > 1)
-        raise _MistakeError(f"the key {twice[:60]!r} twice")
+        raise _MistakeError(tr("the key {twice!r} twice", twice=twice[:60]))
     return table
 
 
 def _refuse_constant(name: str) -> float:
-    raise _MistakeError(f"the number {name}")
+    raise _MistakeError(tr("the number {name}", name=name))
 
 
 def _refuse_half_characters(text: str, value: Any, path: object) -> None:
@@ -120,7 +121,9 @@ def _refuse_half_characters(text: str, value: Any, path: object) -> None:
     try:
         json.dumps(value, ensure_ascii=False).encode("utf-8")
     except UnicodeEncodeError:
-        raise SessionFileError(path, "the file", "half of a character (\\ud800 to \\udfff)", "whole ones") from None
+        raise SessionFileError(
+            path, tr("the file"), "half of a character (\\ud800 to \\udfff)", tr("whole ones")
+        ) from None
 
 
 def finite(value: int | float) -> float:

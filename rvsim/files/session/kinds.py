@@ -17,6 +17,7 @@ from rvsim.errors import RvsimError, SessionFileError, did_you_mean
 from rvsim.files.kinds import REQUIRED
 from rvsim.files.place import Place, shown
 from rvsim.files.session.json_text import finite
+from rvsim.language import tr
 
 
 class Kind(Protocol):
@@ -64,9 +65,9 @@ class Real:
 
     @property
     def _expected(self) -> str:
-        bounds = [f"at least {self.least:g}"] * math.isfinite(self.least)
-        bounds += [f"at most {self.most:g}"] * math.isfinite(self.most)
-        return " ".join(["a finite number", " and ".join(bounds)]).strip()
+        bounds = [tr("at least {least:g}", least=self.least)] * math.isfinite(self.least)
+        bounds += [tr("at most {most:g}", most=self.most)] * math.isfinite(self.most)
+        return " ".join([tr("a finite number"), " and ".join(bounds)]).strip()
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ class Whole:
     def read(self, value: Any, place: Place) -> int:
         """The number."""
         if isinstance(value, bool) or not isinstance(value, int) or not self.least <= value <= self.most:
-            place.refuse(shown(value), f"a whole number from {self.least} to {self.most}")
+            place.refuse(shown(value), tr("a whole number from {least} to {most}", least=self.least, most=self.most))
         return value
 
     def plain(self, value: Any) -> int:
@@ -97,9 +98,9 @@ class Reals:
     def read(self, value: Any, place: Place) -> tuple[float, ...]:
         """The numbers."""
         if not isinstance(value, list) or len(value) != self.count:
-            place.refuse(shown(value), f"a list of {self.count} numbers{self.what}")
+            place.refuse(shown(value), tr("a list of {count} numbers{what}", count=self.count, what=self.what))
         number = Real()
-        return tuple(number.read(item, place.at(f"number {i}")) for i, item in enumerate(value, 1))
+        return tuple(number.read(item, place.at(tr("number {i}", i=i))) for i, item in enumerate(value, 1))
 
     def plain(self, value: Any) -> list[float]:
         """With all their digits."""
@@ -118,9 +119,9 @@ class Rows:
         """(rows, width)."""
         if not isinstance(value, list) or not self.least <= len(value) <= self.most:
             rows = f"{self.least}" if self.least == self.most else f"{self.least} to {self.most}"
-            place.refuse(shown(value), f"a list of {rows} rows")
+            place.refuse(shown(value), tr("a list of {rows} rows", rows=rows))
         row = Reals(self.width)
-        found = [row.read(item, place.at(f"row {i}")) for i, item in enumerate(value, 1)]
+        found = [row.read(item, place.at(tr("row {i}", i=i))) for i, item in enumerate(value, 1)]
         return np.array(found, dtype=np.float64).reshape(-1, self.width)
 
     def plain(self, value: Any) -> list[list[float]]:
@@ -139,9 +140,12 @@ class Words:
     def read(self, value: Any, place: Place) -> str:
         """The text."""
         if not isinstance(value, str):
-            place.refuse(shown(value), "a text in quotes")
+            place.refuse(shown(value), tr("a text in quotes"))
         if not self.shortest <= len(value) <= self.longest:
-            place.refuse(f"a text of {len(value)} characters", f"{self.shortest} to {self.longest} characters")
+            place.refuse(
+                tr("a text of {count} characters", count=len(value)),
+                tr("{shortest} to {longest} characters", shortest=self.shortest, longest=self.longest),
+            )
         return value
 
     def plain(self, value: Any) -> str:
@@ -174,7 +178,7 @@ class Flag:
     def read(self, value: Any, place: Place) -> bool:
         """The truth value."""
         if not isinstance(value, bool):
-            place.refuse(shown(value), "true or false, without quotes")
+            place.refuse(shown(value), tr("true or false, without quotes"))
         return value
 
     def plain(self, value: Any) -> bool:
@@ -209,9 +213,9 @@ class Many:
     def read(self, value: Any, place: Place) -> tuple[Any, ...]:
         """Each item read."""
         if not isinstance(value, list):
-            place.refuse(shown(value), f"a list of {self.one}s")
+            place.refuse(shown(value), tr("a list of {one}s", one=self.one))
         if not self.fewest <= len(value) <= self.most:
-            place.refuse(f"{len(value)} of them", f"{self.fewest} to {self.most} {self.one}s")
+            place.refuse(tr("{count} of them", count=len(value)), f"{self.fewest} to {self.most} {self.one}s")
         return tuple(self.kind.read(item, place.at(f"{self.one} {i}")) for i, item in enumerate(value, 1))
 
     def plain(self, value: Any) -> list[Any]:
@@ -228,10 +232,13 @@ class Paragraphs:
     def read(self, value: Any, place: Place) -> str:
         """The text."""
         if not isinstance(value, list) or not all(isinstance(line, str) for line in value):
-            place.refuse(shown(value), "a list of lines in quotes")
+            place.refuse(shown(value), tr("a list of lines in quotes"))
         text = "\n".join(value)
         if len(text) > self.longest:
-            place.refuse(f"a text of {len(text)} characters", f"at most {self.longest} characters")
+            place.refuse(
+                tr("a text of {count} characters", count=len(text)),
+                tr("at most {longest} characters", longest=self.longest),
+            )
         return text
 
     def plain(self, value: Any) -> list[str]:
@@ -257,17 +264,19 @@ class Record:
         """The value that the table means."""
         names = [field.name for field in self.fields]
         if not isinstance(value, dict):
-            place.refuse(shown(value), "a table of keys", f"Its keys: {', '.join(names)}.")
+            place.refuse(shown(value), tr("a table of keys"), tr("Its keys: {names}.", names=", ".join(names)))
         for name in () if place.newer else value:
             if name not in names:
-                place.at(f"{name[:100]!r}").refuse("an unknown key", "a known one", did_you_mean(name[:100], names))
+                place.at(f"{name[:100]!r}").refuse(
+                    tr("an unknown key"), tr("a known one"), did_you_mean(name[:100], names)
+                )
         found = {field.name: _read(field, value, place.at(field.name)) for field in self.fields}
         try:
             return self.build(**found)
         except SessionFileError:
             raise
         except RvsimError as problem:
-            place.refuse(f"values that cannot be ({problem})", "values that can")
+            place.refuse(tr("values that cannot be ({problem})", problem=problem), tr("values that can"))
 
     def plain(self, value: Any) -> dict[str, Any]:
         """Its keys, in their order."""
@@ -280,5 +289,5 @@ def _read(field: Field, table: dict[str, Any], place: Place) -> Any:
     if field.name in table:
         return field.kind.read(table[field.name], place)
     if field.default is REQUIRED:
-        place.refuse("nothing", "this key, which is required")
+        place.refuse("nothing", tr("this key, which is required"))
     return field.default

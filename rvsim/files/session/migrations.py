@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from rvsim.files.place import Place, shown
+from rvsim.language import tr
 
 Document = dict[str, Any]
 Migration = Callable[[Document], Document]
@@ -20,7 +21,7 @@ def version_of(document: Document, place: Place) -> int:
     """The version that a document says it has."""
     version = document.get("version")
     if isinstance(version, bool) or not isinstance(version, int) or not 1 <= version <= 1_000_000:
-        place.at("version").refuse(shown(version), "the version of the format: 1, 2 …")
+        place.at("version").refuse(shown(version), tr("the version of the format: 1, 2 …"))
     return version
 
 
@@ -32,5 +33,12 @@ def migrated(
         try:
             document = {**migrations[version](document), "version": version + 1}
         except (LookupError, TypeError, ValueError) as problem:
-            place.refuse(f"a document of version {version} that cannot be understood ({problem})", "a session")
+            place.refuse(
+                tr(
+                    "a document of version {version} that cannot be understood ({problem})",
+                    version=version,
+                    problem=problem,
+                ),
+                "a session",
+            )
     return document

@@ -20,10 +20,11 @@ from rvsim.files.robot_file import example_names, load_robot, robot_names
 from rvsim.files.robot_format import ROBOT
 from rvsim.files.robot_writer import robot_text
 from rvsim.files.session.place import SessionPlace
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
 _SETTLING = 8  # times that rounding to the shortest decimals may find still shorter ones
-_HERE = SessionPlace("this experiment", ("robot",))
+_HERE = SessionPlace(tr_later("this experiment"), ("robot",))
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,9 @@ class RobotKind:
     def read(self, value: Any, place: Place) -> Robot:
         """The arm, one object for all that are the same built-in one."""
         if not isinstance(value, dict) or ("name" in value) == ("file" in value):
-            place.refuse(shown(value), 'the name of a built-in arm, {"name": "rv-m1"}, or its robot file, {"file": …}')
+            place.refuse(
+                shown(value), tr('the name of a built-in arm, {"name": "rv-m1"}, or its robot file, {"file": …}')
+            )
         if "file" in value:
             return _embedded(value["file"], place.at("file"))
         return _built_in(value["name"], value.get("tool"), place)
@@ -46,20 +49,20 @@ class RobotKind:
 def _embedded(tables: Any, place: Place) -> Robot:
     robot: Robot = ROBOT.read(tables, place)
     if not robot.name:
-        place.at("name").refuse("nothing", "the arm's short name")
+        place.at("name").refuse("nothing", tr("the arm's short name"))
     return robot
 
 
 def _built_in(name: Any, tool: Any, place: Place) -> Robot:
     known = (*robot_names(), *example_names())
     if not isinstance(name, str) or name not in known:  # a path would be taken for a file
-        place.at("name").refuse(shown(name), "a built-in arm", did_you_mean(str(name)[:100], known))
+        place.at("name").refuse(shown(name), tr("a built-in arm"), did_you_mean(str(name)[:100], known))
     if not isinstance(tool, str | None):
-        place.at("tool").refuse(shown(tool), "the name of a tool")
+        place.at("tool").refuse(shown(tool), tr("the name of a tool"))
     try:
         return shipped(name, tool or "")
     except UnknownNameError as problem:
-        place.at("tool").refuse(shown(tool), "a tool of this arm", str(problem))
+        place.at("tool").refuse(shown(tool), tr("a tool of this arm"), str(problem))
 
 
 @lru_cache(maxsize=64)
@@ -102,7 +105,7 @@ def plain_program(program: Program, robot: Robot) -> list[Any]:
         return []
 
     def rewritten(moves: list[Any]) -> list[Any]:
-        return _moves(read_program(moves, robot, SessionPlace("this experiment", ("program",))), robot)
+        return _moves(read_program(moves, robot, SessionPlace(tr("this experiment"), ("program",))), robot)
 
     settled: list[Any] = _settled(_moves(program, robot), rewritten)
     return settled

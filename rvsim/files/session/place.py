@@ -7,6 +7,7 @@ from typing import NoReturn
 
 from rvsim.errors import SessionFileError
 from rvsim.files.place import Place
+from rvsim.language import tr
 
 
 @dataclass(frozen=True)
@@ -15,5 +16,5 @@ class SessionPlace(Place):
 
     def refuse(self, found: str, expected: str, suggestion: str = "") -> NoReturn:
         """Raise the `SessionFileError` of this place."""
-        where = ", ".join(self.steps) or "the file"
+        where = ", ".join(self.steps) or tr("the file")
         raise SessionFileError(self.path, where, found, expected, suggestion or self.hint)

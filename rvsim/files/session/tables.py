@@ -49,20 +49,21 @@ from rvsim.files.session.kinds import (
     Words,
 )
 from rvsim.files.session.parts import RobotKind, plain_program, read_program
+from rvsim.language import tr, tr_later
 from rvsim.motion.trajectory import LAW_TITLES
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
-FORMAT = "rvsim session"
+FORMAT = tr_later("rvsim session")
 LONGEST_NOTES = 1_000_000  # characters
-_UNITS_NOTE = (
+_UNITS_NOTE = tr_later(
     "radians, metres, seconds, kilograms, newtons; moves and the arm's file in degrees, millimetres, percent, "
     "as in files of their own"
 )
 _MOST_POSES, _MOST_SAMPLES, _MOST_LEFT = 2000, 20_001, 64
 _NAME = Words(60, shortest=1)
 _POINT = Reals(3, ": x, y, z")
-_TURN = Reals(3, ": roll, pitch, yaw")
+_TURN = Reals(3, tr_later(": roll, pitch, yaw"))
 _ORIENTATION = Choice(get_args(PathOrientation))
 _POSITIVE = Real(1e-12)
 _REAL = Real()
@@ -113,7 +114,7 @@ class _ShapeKind:
         kind = value.get("kind") if isinstance(value, dict) else None
         if not isinstance(kind, str) or kind not in _SHAPES:
             guess = did_you_mean(kind[:100], tuple(_SHAPES)) if isinstance(kind, str) else ""
-            place.at("kind").refuse(shown(kind), "a kind of shape", guess)
+            place.at("kind").refuse(shown(kind), tr("a kind of shape"), guess)
         rest = {key: part for key, part in value.items() if key != "kind"}
         shape: Shape = _SHAPES[kind].read(rest, place)
         return shape
@@ -147,7 +148,7 @@ class _PathName:
         """The name."""
         name = _NAME.read(value, place)
         if not name.replace("-", "").isalnum():
-            place.refuse(shown(value), "the name of a path: letters, digits and hyphens")
+            place.refuse(shown(value), tr("the name of a path: letters, digits and hyphens"))
         return name
 
     def plain(self, value: Any) -> str:
@@ -173,7 +174,7 @@ _TRAJECTORY = Record(
 
 _LOAD = Record(
     (
-        Field("wrench", Reals(6, ": fx, fy, fz, mx, my, mz")),
+        Field("wrench", Reals(6, tr_later(": fx, fy, fz, mx, my, mz"))),
         Field("axes", Choice(get_args(WrenchAxes))),
         Field("payload", Real(0.0)),
         Field("own_weight", Flag()),
@@ -192,7 +193,7 @@ class _PoseKind:
         T: FloatArray = Rows(4, 4, 4).read(value, place)
         R = T[:3, :3]
         if np.abs(R).max() > 2.0 or not _is_rotation(R) or T[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
-            place.refuse("a matrix that turns nothing rigidly", "a rotation, a place, and the row 0, 0, 0, 1")
+            place.refuse(tr("a matrix that turns nothing rigidly"), tr("a rotation, a place, and the row 0, 0, 0, 1"))
         return T
 
     def plain(self, value: Any) -> list[list[float]]:
@@ -220,7 +221,7 @@ class _ProgramKind:
 
 
 def _experiment_fields(robot: Robot) -> tuple[Field, ...]:
-    q = Reals(robot.dof, f", one for each joint of the {robot.title}")
+    q = Reals(robot.dof, tr(", one for each joint of the {title}", title=robot.title))
     pose = Record((Field("name", Words(40_000, shortest=1)), Field("q", q)), _named_pose, NamedPose._asdict)
     return (
         Field("q", q),
@@ -250,7 +251,9 @@ class ExperimentKind:
         """The experiment, without its notes."""
         robot_kind = RobotKind()
         if not isinstance(value, dict) or "robot" not in value:
-            place.refuse(shown(value) if not isinstance(value, dict) else "no arm", 'a table with the key "robot"')
+            place.refuse(
+                shown(value) if not isinstance(value, dict) else tr("no arm"), tr('a table with the key "robot"')
+            )
         robot = robot_kind.read(value["robot"], place.at("robot"))
         rest = {key: part for key, part in value.items() if key != "robot"}
         experiment: Experiment = Record(_experiment_fields(robot), _with(Experiment, robot=robot)).read(rest, place)
@@ -277,14 +280,18 @@ def _check_pose_names(experiment: Experiment, place: Place) -> None:
     names = [pose.name for pose in experiment.poses]
     for number, name in enumerate(names, 1):
         if names.index(name) + 1 < number:
-            place.at(f"pose {number}").refuse(f"the name {name[:60]!r} again", "a name of its own")
+            place.at(tr("pose {number}", number=number)).refuse(
+                tr("the name {name!r} again", name=name[:60]), tr("a name of its own")
+            )
 
 
 def _check_shape(task: TrajectoryTask, place: Place) -> None:
     if task.shape is not None and SHAPE_KINDS.get(task.name) is not type(task.shape):
-        place.at("shape").refuse(f"the shape of another path than {task.name!r}", "a shape of this name, or null")
+        place.at("shape").refuse(
+            tr("the shape of another path than {name!r}", name=task.name), tr("a shape of this name, or null")
+        )
     if isinstance(task.shape, TextShape) and not task.shape.text:
-        place.at("shape").refuse("an empty text", "a letter or more")
+        place.at("shape").refuse(tr("an empty text"), tr("a letter or more"))
 
 
 # --- what is beside it ---------------------------------------------------------------------------------------------

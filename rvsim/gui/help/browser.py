@@ -9,6 +9,7 @@ from PySide6.QtGui import QGuiApplication, QImage, QTextCharFormat, QTextCursor,
 from PySide6.QtWidgets import QTextBrowser, QTextEdit
 
 from rvsim.gui.help.document import SCHEME, Look, dress, formula_image, prepared
+from rvsim.language import tr
 
 _MARGIN = 16.0
 _MOST_MARKS = 200
@@ -20,7 +21,7 @@ class HelpBrowser(QTextBrowser):
     def __init__(self) -> None:
         super().__init__()
         self.setObjectName("help_browser")
-        self.setAccessibleName("Help page")
+        self.setAccessibleName(tr("Help page"))
         self.setOpenLinks(False)
         self._formulas: tuple[str, ...] = ()
 

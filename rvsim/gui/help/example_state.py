@@ -14,6 +14,7 @@ from rvsim.experiment.program import ArcMove, Gripper, JointMove, Program, Tripl
 from rvsim.expressions import evaluate
 from rvsim.lab.lines import default_experiment, line_presets, preset_path
 from rvsim.lab.named_paths import path_names
+from rvsim.language import tr
 from rvsim.motion import track
 from rvsim.motion.trajectory import LAW_TITLES
 from rvsim.robot import Robot
@@ -61,7 +62,7 @@ def without_tool(robot: Robot) -> Robot:
 def _numbers(text: str, count: int) -> FloatArray:
     parts = text.split(",")
     if len(parts) != count:
-        raise ExpressionError(text, f"{count} numbers are wanted, with commas between them")
+        raise ExpressionError(text, tr("{count} numbers are wanted, with commas between them", count=count))
     return np.array([evaluate(part) for part in parts])
 
 

@@ -26,6 +26,7 @@ from rvsim.gui.page_stack import PageStack
 from rvsim.gui.panels.inspect_source import SourcePage
 from rvsim.gui.sources_show import show_experiment
 from rvsim.lab.sources.experiments import experiment_of
+from rvsim.language import tr
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -61,7 +62,7 @@ def follow(window: MainWindow, link: str) -> Done:
     """
     parts = urlsplit(link)
     verb, _, subject = parts.path.partition("/")
-    one_of("kind of link", parts.scheme, (SCHEME,))
+    one_of(tr("kind of link"), parts.scheme, (SCHEME,))
     one_of("verb", verb, tuple(VERBS))
     return VERBS[verb](window, unquote(subject), dict(parse_qsl(parts.query)))
 
@@ -82,7 +83,7 @@ def _show(window: MainWindow, panel: str, wishes: dict[str, str]) -> Done:
     for name, deed in _DEEDS.items():
         if name in wishes:
             deed(window, wishes[name])
-    return Done("The window shows the example." if changes else "", changes)
+    return Done(tr("The window shows the example.") if changes else "", changes)
 
 
 def panel_names(window: MainWindow) -> tuple[str, ...]:
@@ -98,19 +99,22 @@ def _set_up(window: MainWindow, wishes: dict[str, str]) -> None:
     wanted = example_experiment(robot, wishes)
     window.motion.pause()
     window.tracker.cancel()
-    session.undo_stack.beginMacro("Show an example of the help")
+    session.undo_stack.beginMacro(tr("Show an example of the help"))
     session.use_robot(robot)
     before = session.experiment
     program = wanted.program or before.program
-    session.edit("Set up", replace(wanted, robot=before.robot, poses=before.poses, program=program))
+    session.edit(tr("Set up"), replace(wanted, robot=before.robot, poses=before.poses, program=program))
     session.undo_stack.endMacro()
-    session.say("An example of the help. Undo takes it back.")
+    session.say(tr("An example of the help. Undo takes it back."))
 
 
 def _source(window: MainWindow, key: str, _wishes: dict[str, str]) -> Done:
     experiment = experiment_of(key)
     show_experiment(window, experiment)
-    return Done(f"Source {experiment.source}, {experiment.item}: {experiment.shows}", undoable=True)
+    return Done(
+        tr("Source {source}, {item}: {shows}", source=experiment.source, item=experiment.item, shows=experiment.shows),
+        undoable=True,
+    )
 
 
 def _open(window: MainWindow, name: str, _wishes: dict[str, str]) -> Done:
@@ -131,7 +135,7 @@ def _point(window: MainWindow, name: str, _wishes: dict[str, str]) -> Done:
 def _child(window: MainWindow, name: str) -> QWidget:
     widget = window.findChild(QWidget, name)
     if not isinstance(widget, QWidget):
-        raise UnknownNameError("control", name, ("those of the window",))
+        raise UnknownNameError("control", name, (tr("those of the window"),))
     return widget
 
 
@@ -165,7 +169,7 @@ def _track(window: MainWindow, kind: str) -> None:
 
 
 def _curves(window: MainWindow, names: str) -> None:
-    wanted = [f"plot_{name}_button" for name in names.split(",")]
+    wanted = [tr("plot_{name}_button", name=name) for name in names.split(",")]
     made = {one.objectName(): one for one in window.plots.findChildren(QToolButton) if one.isCheckable()}
     for name in wanted:
         one_of("curve", name, tuple(made))

@@ -14,6 +14,7 @@ from rvsim.gui.help.examples import SCHEME, follow
 from rvsim.gui.help.library import INDEX, Hit, help_pages, search
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import ElidedLabel, button
+from rvsim.language import tr
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -73,13 +74,15 @@ class HelpWindow(QWidget):
     # --- construction ------------------------------------------------------------------------------------------------
 
     def _make_bar(self) -> None:
-        self.back = _tool("help_back", "←", "Back (Alt+Left)", self.go_back)
-        self.forward = _tool("help_forward", "→", "Forward (Alt+Right)", self.go_forward)
-        self.contents = _tool("help_contents", "Contents", "All pages (Alt+Home)", lambda: self.show_page(INDEX))
+        self.back = _tool("help_back", "←", tr("Back (Alt+Left)"), self.go_back)
+        self.forward = _tool("help_forward", "→", tr("Forward (Alt+Right)"), self.go_forward)
+        self.contents = _tool(
+            "help_contents", tr("Contents"), tr("All pages (Alt+Home)"), lambda: self.show_page(INDEX)
+        )
         self.words = QLineEdit()
         self.words.setObjectName("help_search")
-        self.words.setPlaceholderText("Search all pages")
-        self.words.setAccessibleName("Search all pages")
+        self.words.setPlaceholderText(tr("Search all pages"))
+        self.words.setAccessibleName(tr("Search all pages"))
         self.words.setToolTip("Ctrl+F; Enter opens the first page that was found")
         self.words.setClearButtonEnabled(True)
         self.words.textEdited.connect(self._on_words)
@@ -95,7 +98,7 @@ class HelpWindow(QWidget):
         self.foot = QWidget()
         self.said = ElidedLabel()
         self.said.setObjectName("help_said")
-        self.undo = button("help_undo", "Undo", "Take back what the example has set up", self._undo)
+        self.undo = button("help_undo", tr("Undo"), tr("Take back what the example has set up"), self._undo)
         row = QHBoxLayout(self.foot)
         row.setContentsMargins(4, 0, 0, 0)
         row.addWidget(self.said, 1)
@@ -170,8 +173,8 @@ class HelpWindow(QWidget):
         self.browser.light(words if page else "")
         if anchor:
             self.browser.scrollToAnchor(anchor)
-        title = help_pages()[page].title if page else "Search"
-        self.setWindowTitle(f"{title} \u2013 rvsim help")
+        title = help_pages()[page].title if page else tr("Search")
+        self.setWindowTitle(tr("{title} \u2013 rvsim help", title=title))
         self.back.setEnabled(self._now > 0)
         self.forward.setEnabled(self._now + 1 < len(self._places))
         self._tell("")
@@ -278,7 +281,7 @@ def _results(words: str) -> str:
     found = search(words)
     lines = [f"# “{_plain(words)}”", ""]
     if not found:
-        lines.append("Nothing found. Try another word, or look into the [contents](index.md).")
+        lines.append(tr("Nothing found. Try another word, or look into the [contents](index.md)."))
     for hit in found[:_MOST_HITS]:
         section = hit.section
         title = section.title if section.title == hit.page_title else f"{hit.page_title} › {section.title}"

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
 from rvsim.gui.panels.shown import ReadOutPanel
 from rvsim.gui.session import Session
+from rvsim.language import tr
 
 
 class CopyButton(QToolButton):
@@ -25,11 +26,11 @@ class CopyButton(QToolButton):
         super().__init__(parent)
         self._what, self._formats, self._session = what, dict(formats), session
         self.setObjectName(name)
-        self.setText("Copy ▾")
+        self.setText(tr("Copy ▾"))
         # The arrow is a part of the word: the style's own hangs in the corner.
         self.setStyleSheet("QToolButton::menu-indicator { image: none; width: 0; }")
-        self.setAccessibleName(f"Copy {what}")
-        self.setToolTip(f"Copy {what} in full precision as {', '.join(self._formats)}")
+        self.setAccessibleName(tr("Copy {what}", what=what))
+        self.setToolTip(tr("Copy {what} in full precision as {formats}", what=what, formats=", ".join(self._formats)))
         self.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QMenu(self)
         for format_name in self._formats:
@@ -46,4 +47,4 @@ class CopyButton(QToolButton):
                 around.catch_up()
             around = around.parentWidget()
         QGuiApplication.clipboard().setText(self._formats[format_name]())
-        self._session.say(f"Copied {self._what} as {format_name}.")
+        self._session.say(tr("Copied {what} as {format_name}.", what=self._what, format_name=format_name))

@@ -28,25 +28,28 @@ from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, column_of, scrolled
+from rvsim.language import tr, tr_later
 
-_NO_SERVOS = "The {arm} has no servos: choose the Lynxmotion AL5B at the left, or an arm whose robot file has some."
-_CONNECT = (
+_NO_SERVOS = tr_later(
+    "The {arm} has no servos: choose the Lynxmotion AL5B at the left, or an arm whose robot file has some."
+)
+_CONNECT = tr_later(
     "No two arms are put together alike: at the same pulse one stands at 30°, another at 35°, a third turns the other "
     "way. Here you find out how yours does: you nudge a joint until the arm stands like the picture, and press Mark. "
     "Two marks a joint are enough. Connect an arm on the page Drive first; a virtual one has hidden numbers to find."
 )
-_BRIDGE = (
+_BRIDGE = tr_later(
     "The encoder bridge knows its servos itself and takes angles, not pulses: there is nothing to calibrate from here."
 )
-_LOST = "The connection is lost. Connect again on the page Drive; the marks are kept."
-_STOPPED = "The stop has latched. Reset it to go on; nothing moves by that, and the marks are kept."
-_STILL_MOVING = "The arm is still moving. Press Mark when it stands."
+_LOST = tr_later("The connection is lost. Connect again on the page Drive; the marks are kept.")
+_STOPPED = tr_later("The stop has latched. Reset it to go on; nothing moves by that, and the marks are kept.")
+_STILL_MOVING = tr_later("The arm is still moving. Press Mark when it stands.")
 
 
 class CalibratePage(InspectPage):
     """Nothing moves but by a button of this page, slowly; limits do not count, for a wrong sign must be seen."""
 
-    title = "Calibrate"
+    title = tr_later("Calibrate")
     name = "calibrate"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, device: DeviceControl) -> None:
@@ -60,7 +63,7 @@ class CalibratePage(InspectPage):
         self.about = wrapped_label()
         self.about.setObjectName("calibrate_about")
         self.reset = button(
-            "calibrate_reset", "Reset the stop", "Leave the latched stop. Nothing moves by that", device.reset,
+            "calibrate_reset", tr("Reset the stop"), tr("Leave the latched stop. Nothing moves by that"), device.reset,
             primary=True,
         )  # fmt: skip
         self.wake = WakeSection(preferences)
@@ -82,7 +85,7 @@ class CalibratePage(InspectPage):
         column.setSpacing(10)
         for part in (self.about, self.reset, self.wake, self.step, self.results, self.automatic):
             column.addWidget(part)
-        self.numbers = QGroupBox("All numbers of the servos")
+        self.numbers = QGroupBox(tr("All numbers of the servos"))
         rows = QVBoxLayout(self.numbers)
         rows.setContentsMargins(0, 6, 0, 0)
         rows.addWidget(self.tables)
@@ -226,7 +229,7 @@ class CalibratePage(InspectPage):
         """Let the window's arm stand as the step wants it: the picture. The other arm follows nobody meanwhile."""
         step = self._wizard.step if self._wizard is not None else None
         if step is not None and step.value is not None and not self._device.live:
-            self._session.move_to(step.posture, "Picture of a pose to be marked", merge="calibration")
+            self._session.move_to(step.posture, tr("Picture of a pose to be marked"), merge="calibration")
 
     def _on_ends(self, on: bool) -> None:
         if self._wizard is not None:
@@ -263,13 +266,13 @@ class CalibratePage(InspectPage):
         wizard, before = self._wizard, self._basis
         if wizard is None:
             return
-        found = wizard.calibration(f"calibrated on {today()}")
+        found = wizard.calibration(tr("calibrated on {today}", today=today()))
         left = left_over(wizard)
         self._basis, self._taken = (found.servos, found.gripper_servo), True
-        self._device.use_servos(found.servos, found.gripper_servo, "Take the calibration")
+        self._device.use_servos(found.servos, found.gripper_servo, tr("Take the calibration"))
         if wiring_of(self._session.robot) != self._basis:
             self._basis, self._taken = before, False
-            self.step.show_problem("Not taken: see below, in the status line.")
+            self.step.show_problem(tr("Not taken: see below, in the status line."))
         elif left:
             self._begin_anew(left)
             self._taken = True

@@ -12,17 +12,18 @@ from rvsim.gui.panels.device_calibrate_jog import Jog
 from rvsim.gui.panels.device_calibrate_sweep import Sweep, sweep_seconds
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.widgets import button
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 
-_VIRTUAL = (
+_VIRTUAL = tr_later(
     "This arm is virtual, so the window can see where it really stands. It can do what you do: sweep each joint "
     "gently between its two poses and lay a line through what it sees. Hobby servos alone cannot tell their angles."
 )
-_ENCODERS = (
+_ENCODERS = tr_later(
     "The angles of this arm are measured. Each joint sweeps gently between its two poses, and a line is laid through "
     "what is measured. Keep clear; Esc stops."
 )
-_TAPS = (
+_TAPS = tr_later(
     "The potentiometers are those inside the servos: they tell the pulse at which a servo stands, not the angle of "
     "the joint. So this arm cannot calibrate itself; mark its poses."
 )
@@ -35,7 +36,7 @@ class AutomaticSection(QGroupBox):
     begin_wanted = Signal()
 
     def __init__(self, device: DeviceControl, jog: Jog) -> None:
-        super().__init__("Automatic")
+        super().__init__(tr("Automatic"))
         self._device = device
         self._timed: tuple[CalibrationWizard | None, str] = (None, "")
         self.sweep = Sweep(device, jog, self._seen_angles, self)
@@ -48,12 +49,12 @@ class AutomaticSection(QGroupBox):
         self.progress.setTextVisible(False)
         self.begin = button(
             "calibrate_automatic",
-            "Sweep the joints",
-            "From the joint chosen above on; each moves slowly",
+            tr("Sweep the joints"),
+            tr("From the joint chosen above on; each moves slowly"),
             self._on_begin,
         )
         self.cancel = button(
-            "calibrate_automatic_cancel", "Cancel the sweep", "The arm holds where it is; what was found stays",
+            "calibrate_automatic_cancel", tr("Cancel the sweep"), tr("The arm holds where it is; what was found stays"),
             self.sweep.cancel,
         )  # fmt: skip
         column = QVBoxLayout(self)
@@ -112,5 +113,5 @@ def _duration_words(seconds: float) -> str:
     if not seconds:
         return ""
     minutes = round(seconds / 60.0)
-    rounded = f"{minutes} min" if minutes > 1 else f"{max(round(seconds, -1), 10):.0f} s"
-    return f"It takes about {rounded}.".replace(" min", "\u00a0min").replace(" s.", "\u00a0s.")
+    rounded = tr("{minutes} min", minutes=minutes) if minutes > 1 else f"{max(round(seconds, -1), 10):.0f} s"
+    return tr("It takes about {rounded}.", rounded=rounded).replace(" min", "\u00a0min").replace(" s.", "\u00a0s.")

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from rvsim.errors import RobotDefinitionError
 from rvsim.expressions import evaluate
 from rvsim.gui.quantities import format_number
+from rvsim.language import tr, tr_later
 from rvsim.robot import GripperServo, Robot, Servo
 
 _PLUS_MINUS = {1: "+", -1: "\u2212"}
@@ -27,17 +28,17 @@ class Column(NamedTuple):
 
 
 SERVO_COLUMNS = (
-    Column("channel", "ch", "Channel of the controller, 0 to 31"),
-    Column("sign", "±", "+ where a longer pulse means a larger angle, − where it means a smaller one"),
-    Column("zero_us", "zero", "Pulse at the joint's zero [µs]; the servo need not reach it", 1),
-    Column("scale", "µs/°", "How many µs turn the joint by 1° (µs/mm where it slides)", 2),
-    Column("min_us", "min", "The shortest pulse that the servo may get [µs]"),
-    Column("max_us", "max", "The longest pulse that the servo may get [µs]"),
+    Column("channel", "ch", tr_later("Channel of the controller, 0 to 31")),
+    Column("sign", "±", tr_later("+ where a longer pulse means a larger angle, − where it means a smaller one")),
+    Column("zero_us", "zero", tr_later("Pulse at the joint's zero [µs]; the servo need not reach it"), 1),
+    Column("scale", "µs/°", tr_later("How many µs turn the joint by 1° (µs/mm where it slides)"), 2),
+    Column("min_us", "min", tr_later("The shortest pulse that the servo may get [µs]")),
+    Column("max_us", "max", tr_later("The longest pulse that the servo may get [µs]")),
 )
 GRIPPER_COLUMNS = (
-    Column("channel", "ch", "Channel of the controller, 0 to 31"),
-    Column("open_us", "open", "Pulse at which the gripper is open [µs]"),
-    Column("closed_us", "closed", "Pulse at which the gripper is closed [µs]"),
+    Column("channel", "ch", tr_later("Channel of the controller, 0 to 31")),
+    Column("open_us", "open", tr_later("Pulse at which the gripper is open [µs]")),
+    Column("closed_us", "closed", tr_later("Pulse at which the gripper is closed [µs]")),
 )
 Wiring = tuple[tuple[Servo, ...], GripperServo | None]
 
@@ -133,8 +134,8 @@ def origins(robot: Robot) -> tuple[str, ...]:
 
 def origin(assumed: bool, source: str) -> str:
     """Where a servo's numbers come from, in words."""
-    words = source or "its robot file"
-    return f"assumed ({words})" if assumed else words
+    words = source or tr("its robot file")
+    return tr("assumed ({words})", words=words) if assumed else words
 
 
 def _listed(names: list[str]) -> str:
@@ -143,7 +144,7 @@ def _listed(names: list[str]) -> str:
 
 
 def _by_hand(today: str) -> str:
-    return f"typed in on {today}"
+    return tr("typed in on {today}", today=today)
 
 
 def _per_shown_unit(robot: Robot, joint: int) -> float:
@@ -158,14 +159,14 @@ def _typed(key: str, text: str) -> float:
 
 def _sign(text: str) -> int:
     if text not in _SIGNS:
-        raise RobotDefinitionError("sign", f"{text!r} is none: type + or -.")
+        raise RobotDefinitionError("sign", tr("{text!r} is none: type + or -.", text=text))
     return _SIGNS[text]
 
 
 def _channel(text: str) -> int:
     number = _number(text)
     if number != round(number):
-        raise RobotDefinitionError("channel", f"{text} is none: they are whole numbers, 0 to 31.")
+        raise RobotDefinitionError("channel", tr("{text} is none: they are whole numbers, 0 to 31.", text=text))
     return round(number)
 
 

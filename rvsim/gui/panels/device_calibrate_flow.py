@@ -9,6 +9,7 @@ from rvsim.device.calibrate import CalibrationWizard, Fit, Mark, Result, Step
 from rvsim.device.calibration.steps import ENDS, GRIPPER_STAGES, POSES
 from rvsim.gui.panels.device_calibrate_jog import Part, pulse_for
 from rvsim.gui.quantities import format_number
+from rvsim.language import tr
 from rvsim.robot import GripperServo, Robot, Servo
 
 _PLUS_MINUS = {1: "+", -1: "\u2212"}
@@ -44,8 +45,15 @@ def where_words(wizard: CalibrationWizard) -> str:
         return ""
     stages = GRIPPER_STAGES if step.joint is None else POSES + (ENDS if wizard.ends else ())
     part = wizard.parts.index(step.joint) + 1
-    name = "Joint" if step.joint is not None else "Gripper,"
-    return f"{name} {part} of {len(wizard.parts)}, step {stages.index(step.stage) + 1} of {len(stages)}"
+    name = tr("Joint") if step.joint is not None else tr("Gripper,")
+    return tr(
+        "{name} {part} of {count}, step {index} of {count2}",
+        name=name,
+        part=part,
+        count=len(wizard.parts),
+        index=stages.index(step.stage) + 1,
+        count2=len(stages),
+    )
 
 
 def with_ends(wizard: CalibrationWizard, ends: bool) -> CalibrationWizard:
@@ -94,7 +102,9 @@ def result_rows(result: Result) -> tuple[tuple[str, ...], tuple[str, ...]]:
 def _numbers(result: Result, *, new: bool) -> tuple[str, ...]:
     servo = result.new if new else result.old
     if isinstance(servo, GripperServo):
-        return f"open {servo.open_us:.0f} µs", f"closed {servo.closed_us:.0f} µs"
+        return tr("open {open_us:.0f} µs", open_us=servo.open_us), tr(
+            "closed {closed_us:.0f} µs", closed_us=servo.closed_us
+        )
     per_step = next(change for change in result.changes if "/" in change.unit)
     return (
         _PLUS_MINUS[servo.sign],

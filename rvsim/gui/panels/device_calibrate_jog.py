@@ -6,6 +6,7 @@ import math
 
 from rvsim.device.driver.state import DriverState
 from rvsim.gui.device_control import DeviceControl
+from rvsim.language import tr
 from rvsim.robot import GripperServo, Robot, Servo
 
 Part = int | None  # a joint (from 0), or the gripper
@@ -51,7 +52,7 @@ class Jog:
         """Go to a pulse [µs], slowly; why not, or ""."""
         driver = self._device.driver
         if driver is None:
-            return "No arm is connected."
+            return tr("No arm is connected.")
         self._device.set_live(False)
         seconds = seconds_between(self.pulse(part), pulse_us) if seconds is None else seconds
         refusal = driver.jog_pulse(servo_of(driver.robot, part).channel, pulse_us, seconds)

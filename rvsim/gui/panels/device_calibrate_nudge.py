@@ -9,6 +9,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QSpinBox, QWidget
 
 from rvsim.gui.quantities import format_number
+from rvsim.language import tr
 from rvsim.robot.servo import LONGEST_US, SHORTEST_US
 
 _STEPS = (-10, -1, 1, 10)
@@ -25,8 +26,10 @@ class NudgeRow(QWidget):
         super().__init__()
         self.box = QSpinBox()
         self.box.setObjectName("calibrate_pulse")
-        self.box.setAccessibleName("Pulse of this servo")
-        self.box.setToolTip("The pulse of this servo; typed ones are gone to slowly. Arrows: 1 µs, page keys: 10 µs")
+        self.box.setAccessibleName(tr("Pulse of this servo"))
+        self.box.setToolTip(
+            tr("The pulse of this servo; typed ones are gone to slowly. Arrows: 1 µs, page keys: 10 µs")
+        )
         self.box.setRange(round(SHORTEST_US), round(LONGEST_US))
         self.box.setSuffix(" µs")
         self.box.setAlignment(Qt.AlignmentFlag.AlignRight)
@@ -46,7 +49,13 @@ class NudgeRow(QWidget):
         made.setObjectName(f"calibrate_{'minus' if step < 0 else 'plus'}_{abs(step)}")
         way = "longer" if step > 0 else "shorter"
         made.setAccessibleName(f"{abs(step)} µs {way}")
-        made.setToolTip(f"A pulse {abs(step)} µs {way}; hold the button to go on. Arrow keys: 1 µs, with Shift 10 µs")
+        made.setToolTip(
+            tr(
+                "A pulse {step} µs {way}; hold the button to go on. Arrow keys: 1 µs, with Shift 10 µs",
+                step=abs(step),
+                way=way,
+            )
+        )
         made.setAutoDefault(False)
         made.setAutoRepeat(True)
         made.setAutoRepeatDelay(_DELAY_MS)

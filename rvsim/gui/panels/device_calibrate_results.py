@@ -14,14 +14,15 @@ from rvsim.gui.panels.device_calibrate_flow import part_title, result_rows
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
 _HEADS = ("±", "µs/°", "zero µs", "range µs")
-_TAKEN = (
+_TAKEN = tr_later(
     "Taken: the window and the arm use it from now on, and undo takes it back. Save the arm as a robot file to keep "
     "it for the next time."
 )
-_FOUND = "Found so far"
+_FOUND = tr_later("Found so far")
 
 
 class ResultsSection(QWidget):
@@ -42,14 +43,14 @@ class ResultsSection(QWidget):
         set_role(self.remarks, level="warning")
         set_role(self.taken, level="good")
         self.take = button(
-            "calibrate_take", "Take the calibration",
-            "The arm of this window gets these servos; its copy is yours, and undo takes it back",
+            "calibrate_take", tr("Take the calibration"),
+            tr("The arm of this window gets these servos; its copy is yours, and undo takes it back"),
             self.take_wanted.emit, primary=True,
         )  # fmt: skip
         self.save = button(
             "calibrate_save",
-            "Save as robot file …",
-            "What keeps a calibration is the robot file",
+            tr("Save as robot file …"),
+            tr("What keeps a calibration is the robot file"),
             self.save_wanted.emit,
         )
         column = QVBoxLayout(self)

@@ -15,20 +15,24 @@ from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.tables import dot
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo
+from rvsim.language import tr, tr_later
 
 _GRIPPER = -1  # in the box of joints
-_HINT = (
+_HINT = tr_later(
     "Come from one side and stop at the first pulse that looks right: a servo that hums stands at its end. Hold a "
     "button to go on; arrow keys nudge by 1 µs, with Shift by 10. All moves are slow, and Esc stops."
 )
-_VIRTUAL = "Nudge until the translucent hand (where the arm really stands) covers the dashed one."
-_MARK_TIP, _WAIT_TIP = "The arm stands as it should: take this pulse", "The arm is moving: wait until it stands"
-_DONE = "All is marked. Take the calibration below, or choose a joint to do it again."
+_VIRTUAL = tr_later("Nudge until the translucent hand (where the arm really stands) covers the dashed one.")
+_MARK_TIP, _WAIT_TIP = (
+    tr_later("The arm stands as it should: take this pulse"),
+    tr_later("The arm is moving: wait until it stands"),
+)
+_DONE = tr_later("All is marked. Take the calibration below, or choose a joint to do it again.")
 _MARKS = {
-    "first pose": "Mark first pose", "second pose": "Mark second pose", "open": "Mark open", "closed": "Mark closed",
-    "least end": "Mark this end", "largest end": "Mark this end",
+    "first pose": tr_later("Mark first pose"), "second pose": tr_later("Mark second pose"), "open": tr_later("Mark open"), "closed": tr_later("Mark closed"),
+    "least end": tr_later("Mark this end"), "largest end": tr_later("Mark this end"),
 }  # fmt: skip
-_SKIPS = {"least end": "Skip both ends", "largest end": "Skip this end"}
+_SKIPS = {"least end": tr_later("Skip both ends"), "largest end": tr_later("Skip this end")}
 
 
 class StepSection(QWidget):
@@ -69,7 +73,7 @@ class StepSection(QWidget):
         self.progress.setObjectName("calibrate_progress")
         self.progress.setTextVisible(False)
         self.progress.setFixedHeight(6)
-        self.part = combo("calibrate_joint", "Which joint is calibrated")
+        self.part = combo("calibrate_joint", tr("Which joint is calibrated"))
         self.part.activated.connect(lambda _: self.part_chosen.emit(self._chosen))
         self.nudge = NudgeRow()
         self.nudge.pulse_wanted.connect(self.pulse_wanted)
@@ -78,24 +82,24 @@ class StepSection(QWidget):
 
     def _make_buttons(self) -> None:
         self.near = button(
-            "calibrate_near", "Go near it, slowly",
-            "All joints go to where the calibration so far has this pose. Where a direction is wrong they go the "
-            "other way: keep clear, and a finger at Esc", self.near_wanted.emit,
+            "calibrate_near", tr("Go near it, slowly"),
+            tr("All joints go to where the calibration so far has this pose. Where a direction is wrong they go the "
+            "other way: keep clear, and a finger at Esc"), self.near_wanted.emit,
         )  # fmt: skip
         self.mark = button(
-            "calibrate_mark", "Mark", _MARK_TIP, self.mark_wanted.emit,
+            "calibrate_mark", tr("Mark"), _MARK_TIP, self.mark_wanted.emit,
             primary=True,
         )  # fmt: skip
-        self.undo = button("calibrate_undo", "Undo mark", "Back to the step before", self.undo_wanted.emit)
-        self.skip = button("calibrate_skip", "Skip", "", self.skip_wanted.emit)
+        self.undo = button("calibrate_undo", tr("Undo mark"), tr("Back to the step before"), self.undo_wanted.emit)
+        self.skip = button("calibrate_skip", tr("Skip"), "", self.skip_wanted.emit)
         self.other = button(
-            "calibrate_other_pose", "It does not come that far", "Ask for a pose nearer to the middle",
+            "calibrate_other_pose", tr("It does not come that far"), tr("Ask for a pose nearer to the middle"),
             self.other_wanted.emit,
         )  # fmt: skip
 
-        self.ends = QCheckBox("Also find how far each joint may go")
+        self.ends = QCheckBox(tr("Also find how far each joint may go"))
         self.ends.setObjectName("calibrate_ends")
-        self.ends.setToolTip("Two more steps a joint. Without them a joint may go as far as before, in degrees")
+        self.ends.setToolTip(tr("Two more steps a joint. Without them a joint may go as far as before, in degrees"))
         self.ends.toggled.connect(self.ends_wanted)
 
     def _lay_out(self) -> None:
@@ -126,7 +130,7 @@ class StepSection(QWidget):
         self._show_parts(wizard)
         self.progress.setRange(0, wizard.count)
         self.progress.setValue(round(wizard.progress * wizard.count))
-        self.title.setText("All is marked" if step is None else step.title)
+        self.title.setText(tr("All is marked") if step is None else step.title)
         self.where.setText(where_words(wizard))
         self.instruction.setText(_DONE if step is None else step.instruction)
         for widget in self._of_a_step:

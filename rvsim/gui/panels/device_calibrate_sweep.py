@@ -12,6 +12,7 @@ from rvsim.device.calibrate import CalibrationWizard, Objection, fit_from_sample
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.panels.device_calibrate_flow import at_part, current_part, left_over, pose_steps, with_fit
 from rvsim.gui.panels.device_calibrate_jog import Jog, Part, pulse_for, seconds_between
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 
 _STEPS = 5  # from one pose to the other
@@ -20,8 +21,8 @@ _MARGIN = 0.1  # of the way, kept at both ends: a stop of the real servo may lie
 _REST = 0.6  # [s] a sample, until the arm has come to rest and been looked at
 _STILL = 1e-4  # [rad, m] between two looks
 _LOOKS = 4  # in a row without a change: the arm stands
-_STOPPED = "The automatic calibration has ended: the arm was stopped."
-_LOST = "The automatic calibration has ended: nothing can be measured any more."
+_STOPPED = tr_later("The automatic calibration has ended: the arm was stopped.")
+_LOST = tr_later("The automatic calibration has ended: nothing can be measured any more.")
 
 Eyes = Callable[[], FloatArray | None]
 
@@ -75,14 +76,18 @@ class Sweep(QObject):
         """Which joint is swept: a sentence."""
         if self._wizard is None or self._joint is None:
             return ""
-        return f"Sweeping the {self._wizard.robot.joint_names[self._joint.joint]}. Esc stops."
+        return tr(
+            "Sweeping the {joint_names}. Esc stops.", joint_names=self._wizard.robot.joint_names[self._joint.joint]
+        )
 
     def begin(self, wizard: CalibrationWizard) -> None:
         """From the joint at which a wizard is."""
         self._wizard = at_part(wizard, current_part(wizard))
         self._next_joint()
 
-    def cancel(self, sentence: str = "The automatic calibration was cancelled; what it has found stays.") -> None:
+    def cancel(
+        self, sentence: str = tr_later("The automatic calibration was cancelled; what it has found stays.")
+    ) -> None:
         """End it; the arm holds where it is."""
         if self._wizard is None:
             return
@@ -95,7 +100,7 @@ class Sweep(QObject):
         assert self._wizard is not None
         joints = [part for part in left_over(self._wizard) if part is not None]
         if not joints:
-            self.cancel("All joints have been swept. Look at what was found, then take the calibration.")
+            self.cancel(tr("All joints have been swept. Look at what was found, then take the calibration."))
             return
         if current_part(self._wizard) != joints[0]:
             self._wizard = at_part(self._wizard, joints[0])

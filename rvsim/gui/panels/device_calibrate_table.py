@@ -44,6 +44,7 @@ from rvsim.gui.panels.tables import (
 )
 from rvsim.gui.session import Session
 from rvsim.gui.widgets import button
+from rvsim.language import tr, tr_later
 from rvsim.robot import GripperServo, Robot, Servo
 
 _TOP = QModelIndex()
@@ -51,7 +52,7 @@ _Role = Qt.ItemDataRole
 _SWAPPED = (4, 5)
 _FIRST_WIDE = 3  # columns before it hold a letter or two
 _ENDS = (5, 6)
-_ABOUT = (
+_ABOUT = tr_later(
     "Pulses in µs; every number can be typed over, italics are assumed. What is calibrated here lives in the arm of "
     "this window: save it as a robot file, or it is gone when the window closes."
 )
@@ -153,7 +154,11 @@ class ServosModel(QAbstractTableModel):
     def _tip(self, row: int, column: int) -> str:
         assert self._robot is not None
         servo = self._rows(self._robot)[row]
-        name = "The gripper" if self._of_gripper else f"The {self._robot.joint_names[row]}'s servo"
+        name = (
+            tr("The gripper")
+            if self._of_gripper
+            else tr("The {joint_names}'s servo", joint_names=self._robot.joint_names[row])
+        )
         if column > 0:
             name = f"{name}: {self._columns[column - 1].head} {self.data(self.index(row, column), _Role.EditRole)}"
         return f"{name}; {origin(servo.assumed, servo.source)}."
@@ -173,7 +178,7 @@ class ServosModel(QAbstractTableModel):
         if role == _Role.TextAlignmentRole:
             return LEFT if section == 0 else RIGHT
         if role == _Role.ToolTipRole:
-            return "What hangs on the servo" if section == 0 else self._columns[section - 1].tip
+            return tr("What hangs on the servo") if section == 0 else self._columns[section - 1].tip
         if role != _Role.DisplayRole:
             return None
         return "" if section == 0 else self._columns[section - 1].head
@@ -186,15 +191,19 @@ class ServoTables(QWidget):
         super().__init__()
         self._session, self._device = session, device
         self.servos, self.gripper = ServosModel(SERVO_COLUMNS), ServosModel(GRIPPER_COLUMNS)
-        self.table = _table("calibrate_table", "Servos of the joints", self.servos)
-        self.ends_table = _table("calibrate_ends_table", "Shortest and longest pulses", self.servos)
-        self.gripper_table = _table("calibrate_gripper_table", "Servo of the gripper", self.gripper)
+        self.table = _table("calibrate_table", tr("Servos of the joints"), self.servos)
+        self.ends_table = _table("calibrate_ends_table", tr("Shortest and longest pulses"), self.servos)
+        self.gripper_table = _table("calibrate_gripper_table", tr("Servo of the gripper"), self.gripper)
         self.swap = button(
-            "calibrate_swap", "Swap channels 4 and 5", "Some arms have the gripper on 5 and the wrist's turn on 4",
+            "calibrate_swap", tr("Swap channels 4 and 5"), tr("Some arms have the gripper on 5 and the wrist's "
+                                                              "turn on 4"),
             self._on_swap,
         )  # fmt: skip
         self.turn = button(
-            "calibrate_polarity", "Swap open and closed", "For a gripper that opens when it should close", self._on_turn
+            "calibrate_polarity",
+            tr("Swap open and closed"),
+            tr("For a gripper that opens when it should close"),
+            self._on_turn,
         )
         self.origin = wrapped_label("muted")
         self.origin.setObjectName("calibrate_origin")
@@ -239,19 +248,19 @@ class ServoTables(QWidget):
     def _on_edited(self, joint: int, key: str, text: str) -> None:
         robot = self._session.robot
         name = robot.joint_names[joint]
-        self._take(lambda: with_servo_number(robot, joint, key, text, today()), f"Servo of the {name}")
+        self._take(lambda: with_servo_number(robot, joint, key, text, today()), tr("Servo of the {name}", name=name))
 
     def _on_gripper_edited(self, _row: int, key: str, text: str) -> None:
         robot = self._session.robot
-        self._take(lambda: with_gripper_number(robot, key, text, today()), "Servo of the gripper")
+        self._take(lambda: with_gripper_number(robot, key, text, today()), tr("Servo of the gripper"))
 
     def _on_swap(self) -> None:
         robot = self._session.robot
-        self._take(lambda: swapped_channels(robot, *_SWAPPED), "Swap channels 4 and 5")
+        self._take(lambda: swapped_channels(robot, *_SWAPPED), tr("Swap channels 4 and 5"))
 
     def _on_turn(self) -> None:
         robot = self._session.robot
-        self._take(lambda: turned_gripper(robot, today()), "Swap open and closed")
+        self._take(lambda: turned_gripper(robot, today()), tr("Swap open and closed"))
 
     def _take(self, make: Callable[[], Wiring], text: str) -> None:
         try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rvsim.device.calibrate import Step
 from rvsim.device.calibration.words import number_words, pose_words
 from rvsim.kinematics import forward_kinematics
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.ghosts import Ghost, ghost_items
@@ -19,7 +20,7 @@ def target_items(robot: Robot, step: Step, palette: ScenePalette) -> tuple[Item,
     """The arm as a step of a joint wants it; at an end the pose beyond which it is to go."""
     assert step.joint is not None
     name = pose_name(robot, step.joint, step.posture)
-    text = name if step.value is not None else f"on past: {name}"
+    text = name if step.value is not None else tr("on past: {name}", name=name)
     place = forward_kinematics(robot, step.posture)[:3, 3]
     label = Labels("calibrate.name", (Label(place, text, palette.text, (12.0, 14.0), _SIZE),))
     return (*ghost_items(robot, [Ghost("calibrate", "", step.posture, False)], palette), label)

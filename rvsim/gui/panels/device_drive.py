@@ -22,12 +22,13 @@ from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, column_of, scrolled
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
-_GHOST_TRUE = "The translucent arm in the scene is where the virtual arm really is."
-_GHOST_BACK = "The translucent arm in the scene is what came back."
+_GHOST_TRUE = tr_later("The translucent arm in the scene is where the virtual arm really is.")
+_GHOST_BACK = tr_later("The translucent arm in the scene is what came back.")
 _STEPS = 100  # of the gripper's slider
-_NO_SERVOS = (
+_NO_SERVOS = tr_later(
     "The {arm} has no servos to drive: choose the Lynxmotion AL5B at the left, or an arm of your own whose robot file "
     "has [[servo]] tables."
 )
@@ -36,7 +37,7 @@ _NO_SERVOS = (
 class DrivePage(InspectPage):
     """Everything that makes the arm move is refused with a sentence where it must not move."""
 
-    title = "Drive"
+    title = tr_later("Drive")
     name = "device"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, device: DeviceControl) -> None:
@@ -52,7 +53,7 @@ class DrivePage(InspectPage):
         self.port = PortSection()
         self.wake = WakeSection(preferences)
         self.readings = ReadingsModel(preferences)
-        self.table = plain_table("device_table", "Shown, sent and measured joints", self.readings)
+        self.table = plain_table("device_table", tr("Shown, sent and measured joints"), self.readings)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
         self.measured = wrapped_label("muted")
         self.measured.setObjectName("device_measured_words")
@@ -63,32 +64,35 @@ class DrivePage(InspectPage):
     def _make_buttons(self) -> None:
         device = self._device
         self.send = button(
-            "device_send", "Go to the shown pose", "The arm moves calmly to the pose in the window", device.send_pose,
+            "device_send", tr("Go to the shown pose"), tr("The arm moves calmly to the pose in the "
+                                                          "window"), device.send_pose,
             primary=True,
         )  # fmt: skip
-        self.live = QCheckBox("Follow the window (live)")
+        self.live = QCheckBox(tr("Follow the window (live)"))
         self.live.setObjectName("device_live")
         self.live.setToolTip(
-            "The arm follows every slider, drag and motion that is shown, held to its limits and speed"
+            tr("The arm follows every slider, drag and motion that is shown, held to its limits and speed")
         )
         self.run = button(
-            "device_run", "Run the motion on the arm", "Checked first: limits, speeds, the table, the arm itself",
+            "device_run", tr("Run the motion on the arm"), tr("Checked first: limits, speeds, the table, the "
+                                                              "arm itself"),
             device.run_motion,
         )  # fmt: skip
         self.take = button(
-            "device_take_pose", "Show where the arm is", "The window takes the pose that the arm has been sent to",
+            "device_take_pose", tr("Show where the arm is"), tr("The window takes the pose that the arm has "
+                                                                "been sent to"),
             device.take_pose,
         )  # fmt: skip
         self.gripper = QSlider(Qt.Orientation.Horizontal)
         self.gripper.setObjectName("device_gripper")
-        self.gripper.setAccessibleName("Gripper, from closed to open")
+        self.gripper.setAccessibleName(tr("Gripper, from closed to open"))
         self.gripper.setRange(0, _STEPS)
         self.gripper.setPageStep(_STEPS // 10)
         self.gripper_label = QLabel("–")
         self.reset = button(
             "device_reset",
-            "Reset the stop",
-            "Leave the latched stop. Nothing moves by that",
+            tr("Reset the stop"),
+            tr("Leave the latched stop. Nothing moves by that"),
             device.reset,
             primary=True,
         )
@@ -120,7 +124,7 @@ class DrivePage(InspectPage):
             column.addWidget(widget)
         grip = QHBoxLayout()
         grip.setSpacing(8)
-        name = QLabel("Gripper")
+        name = QLabel(tr("Gripper"))
         name.setBuddy(self.gripper)
         self.gripper_label.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.gripper_label.setMinimumWidth(64)
@@ -204,11 +208,11 @@ class DrivePage(InspectPage):
     def _hint(self, state: DriverState) -> str:
         """Why the buttons below are grey, or what they would do now."""
         if state.phase == "stopped":
-            return "Reset the stop first; nothing moves by that."
+            return tr("Reset the stop first; nothing moves by that.")
         if not all(state.awake):
-            return "The arm can be sent somewhere when every joint is awake."
+            return tr("The arm can be sent somewhere when every joint is awake.")
         if self._device.motion.player.trajectory is None:
-            return "To run a motion, track a line or a trajectory first (Path)."
+            return tr("To run a motion, track a line or a trajectory first (Path).")
         return ""
 
     def _show_live(self, on: bool) -> None:
@@ -239,4 +243,4 @@ class DrivePage(InspectPage):
 
 
 def _opening_words(opening: float) -> str:
-    return f"{round(100.0 * opening)} % open" if math.isfinite(opening) else "asleep"
+    return tr("{opening} % open", opening=round(100.0 * opening)) if math.isfinite(opening) else "asleep"

@@ -27,37 +27,38 @@ from rvsim.gui.stage import Stage
 from rvsim.gui.theme import THEMES
 from rvsim.gui.widgets import button, column_of, combo, scrolled
 from rvsim.lab.recording_table import recording_csv
+from rvsim.language import tr, tr_later
 from rvsim.playback.recording import Recording
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.primitives import Color, Item, Polyline
 
-_EMPTY = (
+_EMPTY = tr_later(
     "Nothing has run on an arm yet. Connect one on the Drive page, track a line or a trajectory, and press "
     "“Run the motion on the arm”: what was wanted, sent and came back is compared here."
 )
 _TOOL = -1
 _COLORS = {"desired": "#0072B2", "commanded": "#009E73", "measured": "#D55E00", "true": "#CC79A7"}
-_WORDS = {"desired": "wanted", "commanded": "sent", "true": "really (virtual arm)"}
-_REPORTED = (
+_WORDS = {"desired": "wanted", "commanded": "sent", "true": tr_later("really (virtual arm)")}
+_REPORTED = tr_later(
     "The controller reported pulses that stand for a tool {rms} (RMS) from where it should have been at the same "
     "moment, {most} at most, over {seconds}; that is no measurement: pulses come in steps of 10 µs, about 1°."
 )
-_MEASURED = (
+_MEASURED = tr_later(
     "The tool was {rms} (RMS) from where it should have been at the same moment, {most} at most, over {seconds}."
 )
-_TRULY = (
+_TRULY = tr_later(
     "Really the virtual arm’s tool was {rms} (RMS) from there, {most} at most: its servos lag, sag, and differ from an "
     "arm’s file until they are calibrated. Of a real arm nobody sees that."
 )
-_MOST_TIP = "The largest between what was wanted and what came back"
-_TRUE_TIP = "Between what was wanted and where the virtual arm really was"
+_MOST_TIP = tr_later("The largest between what was wanted and what came back")
+_TRUE_TIP = tr_later("Between what was wanted and where the virtual arm really was")
 _PLOT_HEIGHT = 150
 _ON_DARK = 150  # per cent of brightness
-_DEVIATION = "Deviation, RMS"
+_DEVIATION = tr_later("Deviation, RMS")
 _TIPS = {
-    "commanded": "Between what was wanted and what was sent, at the same moments",
-    "measured": "Between what was wanted and what came back, at the same moments",
+    "commanded": tr_later("Between what was wanted and what was sent, at the same moments"),
+    "measured": tr_later("Between what was wanted and what came back, at the same moments"),
     "true": _TRUE_TIP,
 }
 _Role = Qt.ItemDataRole
@@ -66,7 +67,7 @@ _Role = Qt.ItemDataRole
 class MeasuredPage(InspectPage):
     """Compares the last motion that ran on the arm with what was wanted."""
 
-    title = "Measured"
+    title = tr_later("Measured")
     name = "measured"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, device: DeviceControl) -> None:
@@ -77,7 +78,7 @@ class MeasuredPage(InspectPage):
         self._runs = False
         self.about = wrapped_label("muted")
         self.about.setObjectName("measured_about")
-        self.what = combo("measured_axis", "Joint or tool")
+        self.what = combo("measured_axis", tr("Joint or tool"))
         self.what.currentIndexChanged.connect(lambda _: self._draw_curves())
         self.curves, self.errors = TimePlot(preferences), TimePlot(preferences)
         for plot, name in ((self.curves, "measured_curves"), (self.errors, "measured_errors")):
@@ -90,10 +91,13 @@ class MeasuredPage(InspectPage):
         self.summary.setObjectName("measured_summary")
         self.summary.setWordWrap(True)
         self.model = ErrorsModel(preferences)
-        self.table = plain_table("measured_table", "Deviations of joints and tool", self.model)
+        self.table = plain_table("measured_table", tr("Deviations of joints and tool"), self.model)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
         self.save = button(
-            "measured_save", "Save as CSV…", "Times, and joints and tool: wanted, sent, come back", self._on_save
+            "measured_save",
+            tr("Save as CSV…"),
+            tr("Times, and joints and tool: wanted, sent, come back"),
+            self._on_save,
         )
         self._lay_out()
         for plot in (self.curves, self.errors):
@@ -155,7 +159,7 @@ class MeasuredPage(InspectPage):
         self._refresh_if_seen()
 
     def _offer(self, robot: Robot) -> None:
-        names = ["Tool", *(f"J{i + 1} {name}" for i, name in enumerate(robot.joint_names))]
+        names = [tr("Tool"), *(f"J{i + 1} {name}" for i, name in enumerate(robot.joint_names))]
         if [self.what.itemText(i) for i in range(self.what.count())] != names:
             with QSignalBlocker(self.what):
                 self.what.clear()
@@ -177,15 +181,15 @@ class MeasuredPage(InspectPage):
     def _on_save(self) -> None:
         if self._recording is None:
             return
-        chosen, _ = QFileDialog.getSaveFileName(self, "Save as CSV", "measured.csv", "CSV (*.csv)")
+        chosen, _ = QFileDialog.getSaveFileName(self, tr("Save as CSV"), "measured.csv", tr("CSV (*.csv)"))
         if not chosen:
             return
         try:
             write_atomically(Path(chosen), recording_csv(self._session.robot, self._recording).encode())
         except (OSError, FileWriteError) as problem:
-            self._session.say(f"Not saved: {problem}", "error")
+            self._session.say(tr("Not saved: {problem}", problem=problem), "error")
             return
-        self._session.say(f"Saved {chosen}.")
+        self._session.say(tr("Saved {chosen}.", chosen=chosen))
 
 
 class ErrorsModel(QAbstractTableModel):
@@ -211,9 +215,11 @@ class ErrorsModel(QAbstractTableModel):
             rows.append((f"J{index + 1} {joint.name}", joint.color, texts))
         tool = [float(recording.tool_errors(robot, name).rms) for name in sources]
         tool += [float(recording.tool_errors(robot, name).max) for name in most]
-        rows.append(("Tool", "#808080", tuple(_text(value, length_kind(robot), self._preferences) for value in tool)))
-        self._tips = ("A joint, or the tool", *(_TIPS[name] for name in sources), *(_MOST_TIP for _ in most))
-        self._heads = (_DEVIATION, *(_short(recording, name) for name in sources), *("At most" for _ in most))
+        rows.append(
+            (tr("Tool"), "#808080", tuple(_text(value, length_kind(robot), self._preferences) for value in tool))
+        )
+        self._tips = (tr("A joint, or the tool"), *(_TIPS[name] for name in sources), *(_MOST_TIP for _ in most))
+        self._heads = (_DEVIATION, *(_short(recording, name) for name in sources), *(tr("At most") for _ in most))
         self.beginResetModel()
         self._rows = tuple(rows)
         self.endResetModel()
@@ -259,10 +265,18 @@ def _summary(robot: Robot, recording: Recording, part: Recording, preferences: P
     """What the motion came to; `part` is that on the trajectory itself."""
     sentences = []
     if recording.stopped_at is not None and not runs:
-        sentences.append(f"It was stopped at {recording.stopped_at:.1f} of {recording.planned:.1f} s.")
+        sentences.append(
+            tr(
+                "It was stopped at {stopped_at:.1f} of {planned:.1f} s.",
+                stopped_at=recording.stopped_at,
+                planned=recording.planned,
+            )
+        )
     back = _amounts(robot, part, "measured", preferences)
     if back is None:
-        sentences.append("Nothing came back of this motion." if recording.t[-1] >= 0.0 else "It has not begun yet.")
+        sentences.append(
+            tr("Nothing came back of this motion.") if recording.t[-1] >= 0.0 else tr("It has not begun yet.")
+        )
     else:
         sentences.append((_MEASURED if recording.is_measured else _REPORTED).format(**back))
     truly = _amounts(robot, part, "true", preferences) if part.true is not None else None
@@ -290,12 +304,12 @@ def _joint_drawings(robot: Robot, recording: Recording, axis: int, preferences: 
     }
     lines = tuple(Line(_name(recording, name), _COLORS[name], row, name == "desired") for name, row in values.items())
     errors = tuple(
-        Line(f"{_name(recording, name)} − wanted", _COLORS[name], values[name] - values["desired"])
+        Line(tr("{name} − wanted", name=_name(recording, name)), _COLORS[name], values[name] - values["desired"])
         for name in _compared(recording)
     )
     unit = shown.suffix.strip()
     name = f"J{axis + 1} {robot.joint_names[axis]}"
-    return Drawing(name, unit, lines), Drawing(f"{name}, deviation", unit, errors)
+    return Drawing(name, unit, lines), Drawing(tr("{name}, deviation", name=name), unit, errors)
 
 
 def _tool_drawings(robot: Robot, recording: Recording, _axis: int, preferences: Preferences) -> tuple[Drawing, Drawing]:
@@ -317,15 +331,17 @@ def _tool_drawings(robot: Robot, recording: Recording, _axis: int, preferences: 
         for name in _compared(recording)
     )  # fmt: skip
     unit = shown.suffix.strip()
-    return Drawing(_axes_title(recording, places), unit, lines), Drawing("Tool, deviation from wanted", unit, errors)
+    return Drawing(_axes_title(recording, places), unit, lines), Drawing(
+        tr("Tool, deviation from wanted"), unit, errors
+    )
 
 
 def _axes_title(recording: Recording, places: dict[str, FloatArray]) -> str:
     """Which of the three curves is which: in the order of where they begin, from above."""
     if recording.empty:
-        return "Tool x, y, z"
+        return tr("Tool x, y, z")
     order = np.argsort(-np.nan_to_num(places["desired"][0]))
-    return f"Tool, at the left from above: {', '.join('xyz'[i] for i in order)}"
+    return tr("Tool, at the left from above: {order}", order=", ".join("xyz"[i] for i in order))
 
 
 def _name(recording: Recording, source: str) -> str:
@@ -362,6 +378,12 @@ def _paths(robot: Robot, recording: Recording) -> tuple[Item, ...]:
         places = places[np.isfinite(places).all(axis=1)]
         if len(places) >= 2:
             items.append(
-                Polyline(f"measured.{source}", places, Color.from_hex(_COLORS[source]), 2.0, dashed=source == "desired")
+                Polyline(
+                    tr("measured.{source}", source=source),
+                    places,
+                    Color.from_hex(_COLORS[source]),
+                    2.0,
+                    dashed=source == "desired",
+                )
             )
     return tuple(items)

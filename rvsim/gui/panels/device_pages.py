@@ -13,6 +13,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.served_arm import ServedArm
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
+from rvsim.language import tr
 
 
 def device_pages(
@@ -37,17 +38,19 @@ def device_pages(
         return VirtualPage(*arguments, served)
 
     return (
-        Page("device", "Drive", "Connect an arm, wake it, let it follow or run", DrivePage(*arguments)),
-        Page("wire", "Wire", "Every line that goes to the arm and comes back, in words", WirePage(*arguments, served)),
+        Page("device", tr("Drive"), tr("Connect an arm, wake it, let it follow or run"), DrivePage(*arguments)),
+        Page("wire", tr("Wire"), tr("Every line that goes to the arm and comes back, in "
+                                    "words"), WirePage(*arguments, served)),
         Page(
-            "calibrate", "Calibrate", "Find out channel, direction and pulses of each servo, step by step",
+            "calibrate", tr("Calibrate"), tr("Find out channel, direction and pulses of each servo, step by step"),
             LatePage(calibrate),
         ),
         Page(
-            "measured", "Measured", "What was wanted, sent and measured of the last motion on the arm",
+            "measured", tr("Measured"), tr("What was wanted, sent and measured of the last motion on the arm"),
             LatePage(measured),
         ),
         Page(
-            "virtual", "Virtual", "Faults of the virtual arm, and other programs that drive one", LatePage(virtual)
+            "virtual", tr("Virtual"), tr("Faults of the virtual arm, and other programs that drive "
+                                         "one"), LatePage(virtual)
         ),
     )  # fmt: skip

@@ -14,6 +14,7 @@ from rvsim.experiment import DeviceSettings
 from rvsim.gui.device_words import LANGUAGE_WORDS
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, form, select
+from rvsim.language import tr
 
 _TYPED = ""
 _BAUDS = {rate: f"{rate} baud" for rate in (9600, 38400, 115200, 2400)}
@@ -28,22 +29,24 @@ class PortSection(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.port = combo("device_port", "Port")
+        self.port = combo("device_port", tr("Port"))
         self.address = QLineEdit()
         self.address.setObjectName("device_address")
-        self.address.setAccessibleName("Address")
-        self.address.setPlaceholderText("socket://192.168.1.5:4001 or rfc2217://…")
-        self.address.setToolTip("Anything that pySerial can open: socket://, rfc2217://, /dev/…, COM…, al5b://?seed=2")
+        self.address.setAccessibleName(tr("Address"))
+        self.address.setPlaceholderText(tr("socket://192.168.1.5:4001 or rfc2217://…"))
+        self.address.setToolTip(
+            tr("Anything that pySerial can open: socket://, rfc2217://, /dev/…, COM…, al5b://?seed=2")
+        )
         self.detail = QLabel()
         self.detail.setWordWrap(True)
         self.detail.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
         set_role(self.detail, role="muted")
-        self.rescan = button("device_rescan", "↻", "Look for ports again", self.scan)
+        self.rescan = button("device_rescan", "↻", tr("Look for ports again"), self.scan)
         self.rescan.setFixedWidth(34)
-        self.baud = combo("device_baud", "Speed of the wire", {str(rate): text for rate, text in _BAUDS.items()})
-        self.language = combo("device_language", "Language of the controller", LANGUAGE_WORDS)
+        self.baud = combo("device_baud", tr("Speed of the wire"), {str(rate): text for rate, text in _BAUDS.items()})
+        self.language = combo("device_language", tr("Language of the controller"), LANGUAGE_WORDS)
         self.connect_button = button(
-            "device_connect_button", "Connect", "Open the port. Nothing moves", self._on_button, primary=True
+            "device_connect_button", tr("Connect"), tr("Open the port. Nothing moves"), self._on_button, primary=True
         )
         self._choices: Sequence[PortChoice] = ()
         self._connected = self._lost = False
@@ -61,13 +64,13 @@ class PortSection(QWidget):
         ports.addWidget(self.rescan)
         rows = form()
         rows.setContentsMargins(0, 0, 0, 0)
-        rows.addRow("Port", ports)
-        rows.addRow("Address", self.address)
+        rows.addRow(tr("Port"), ports)
+        rows.addRow(tr("Address"), self.address)
         self._address_label = rows.labelForField(self.address)
         self._rows = QWidget()
         self._rows.setLayout(rows)
-        rows.addRow("Speed", self.baud)
-        rows.addRow("Language", self.language)
+        rows.addRow(tr("Speed"), self.baud)
+        rows.addRow(tr("Language"), self.language)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
@@ -107,7 +110,7 @@ class PortSection(QWidget):
         self.port.clear()
         for choice in self._choices:
             self.port.addItem(choice.title, choice.url)
-        self.port.addItem("Another address …", _TYPED)
+        self.port.addItem(tr("Another address …"), _TYPED)
         self.port.setCurrentIndex(max(self.port.findData(before), 0) if before is not None else 0)
         self.port.blockSignals(False)
         self._show_choice()
@@ -118,8 +121,12 @@ class PortSection(QWidget):
             return
         self._lost = lost
         self._connected = connected
-        text = "Connect again" if lost else "Disconnect" if connected else "Connect"
-        tip = "Close the port; the arm holds where it is" if connected and not lost else "Open the port. Nothing moves"
+        text = tr("Connect again") if lost else tr("Disconnect") if connected else tr("Connect")
+        tip = (
+            tr("Close the port; the arm holds where it is")
+            if connected and not lost
+            else tr("Open the port. Nothing moves")
+        )
         self.connect_button.setText(text)
         self.connect_button.setToolTip(tip)
         self._rows.setVisible(not connected)  # an open port cannot be changed, and the room is needed

@@ -10,15 +10,16 @@ from rvsim.device.driver.state import DriverState
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_quantity, joint_kind
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_COLUMNS = ("Joint", "Shown", "Sent", "Measured")
+_COLUMNS = (tr_later("Joint"), tr_later("Shown"), tr_later("Sent"), tr_later("Measured"))
 _TIPS = (
-    "The joint; a moon where it sleeps",
-    "The pose in the window",
-    "Where the pulses that were sent should have brought it by now",
-    "What came back: see below what that is",
+    tr_later("The joint; a moon where it sleeps"),
+    tr_later("The pose in the window"),
+    tr_later("Where the pulses that were sent should have brought it by now"),
+    tr_later("What came back: see below what that is"),
 )
 _NONE = "–"
 _BACK = 3  # the column of what came back
@@ -73,7 +74,7 @@ class ReadingsModel(QAbstractTableModel):
             return LEFT if section == 0 else RIGHT
         if role != _Role.DisplayRole:
             return None
-        return "Reported" if section == _BACK and self._reported else _COLUMNS[section]
+        return tr("Reported") if section == _BACK and self._reported else _COLUMNS[section]
 
     def data(self, index: Index, role: int = _Role.DisplayRole) -> object:
         """One cell."""
@@ -97,7 +98,7 @@ class ReadingsModel(QAbstractTableModel):
         if role == _Role.DecorationRole:
             return dot(joint.color)
         if role == _Role.ToolTipRole:
-            return f"{joint.name}: " + ("awake" if awake else "asleep: its servo has not been moved by rvsim yet")
+            return f"{joint.name}: " + ("awake" if awake else tr("asleep: its servo has not been moved by rvsim yet"))
         return None
 
     def _text(self, row: int, value: float) -> str:

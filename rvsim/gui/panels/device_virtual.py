@@ -18,15 +18,18 @@ from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, column_of, combo, form, scrolled
+from rvsim.language import tr, tr_later
 
-_NONE = "No virtual arm is in use: connect one on the Drive page, or serve one below. Its faults are switched here."
-_IN_USE = "What can go wrong on a real arm, switched while it runs. The stop must hold against all of it."
-_SERVE = (
+_NONE = tr_later(
+    "No virtual arm is in use: connect one on the Drive page, or serve one below. Its faults are switched here."
+)
+_IN_USE = tr_later("What can go wrong on a real arm, switched while it runs. The stop must hold against all of it.")
+_SERVE = tr_later(
     "Let another program, your own for instance, drive a virtual arm: it sends the same bytes as to a real one, "
     "and the ghost in the scene moves."
 )
-_SILENT = "No program has sent anything yet."
-_WHICH = {"connected": "The connected arm", "served": "The served arm"}
+_SILENT = tr_later("No program has sent anything yet.")
+_WHICH = {"connected": tr_later("The connected arm"), "served": tr_later("The served arm")}
 _BAUDS = {"9600": "9600 baud", "38400": "38400 baud", "115200": "115200 baud"}
 _LINE = 'import serial\nport = serial.serial_for_url("{address}", baudrate={baud})\nport.write(b"#0P1600T1000\\r")'
 
@@ -34,7 +37,7 @@ _LINE = 'import serial\nport = serial.serial_for_url("{address}", baudrate={baud
 class VirtualPage(InspectPage):
     """Faults of the virtual arm that is connected or served, and the serving."""
 
-    title = "Virtual"
+    title = tr_later("Virtual")
     name = "virtual"
 
     def __init__(
@@ -44,14 +47,15 @@ class VirtualPage(InspectPage):
         self._device, self._served = device, served
         self.about = wrapped_label("muted")
         self.about.setObjectName("virtual_about")
-        self.which = combo("virtual_which", "Which arm's faults are shown and switched", _WHICH)
+        self.which = combo("virtual_which", tr("Which arm's faults are shown and switched"), _WHICH)
         self.which.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
         self.faults = {fault: self._switch(fault) for fault in Fault}
-        self.servo = combo("fault_servo", "The servo that is jammed or weak")
+        self.servo = combo("fault_servo", tr("The servo that is jammed or weak"))
         self.servo.currentIndexChanged.connect(lambda _: self._on_servo())
-        self.clear = button("faults_clear", "No faults", "Switch all of them off", self._on_clear)
+        self.clear = button("faults_clear", tr("No faults"), tr("Switch all of them off"), self._on_clear)
         self.power = button(
-            "virtual_power_cycle", "Switch it off and on", "The board starts anew: it has forgotten all positions",
+            "virtual_power_cycle", tr("Switch it off and on"), tr("The board starts anew: it has forgotten all "
+                                                                  "positions"),
             self._on_power,
         )  # fmt: skip
         self._make_serving()
@@ -69,9 +73,11 @@ class VirtualPage(InspectPage):
         return box
 
     def _make_serving(self) -> None:
-        self.way = combo("serve_way", "How other programs reach it", ways())
-        self.baud = combo("serve_baud", "Speed of its board", _BAUDS)
-        self.serve = button("serve_button", "Serve a virtual arm", "Other programs can drive it then", self._on_serve)
+        self.way = combo("serve_way", tr("How other programs reach it"), ways())
+        self.baud = combo("serve_baud", tr("Speed of its board"), _BAUDS)
+        self.serve = button(
+            "serve_button", tr("Serve a virtual arm"), tr("Other programs can drive it then"), self._on_serve
+        )
         self.address = wrapped_label()
         self.address.setObjectName("serve_address")
         self.traffic = wrapped_label("muted")
@@ -80,30 +86,30 @@ class VirtualPage(InspectPage):
         self.example.setObjectName("serve_example")
         self.example.setWordWrap(True)
         set_role(self.example, role="code")
-        self.copy = button("serve_copy", "Copy as Python", "Three lines that move the base", self._on_copy)
+        self.copy = button("serve_copy", tr("Copy as Python"), tr("Three lines that move the base"), self._on_copy)
 
     def _lay_out(self) -> None:
-        faults = QGroupBox("Faults")
+        faults = QGroupBox(tr("Faults"))
         rows = QVBoxLayout(faults)
         rows.setSpacing(4)
         for box in self.faults.values():
             rows.addWidget(box)
         which = form()
-        which.addRow("Which servo", self.servo)
+        which.addRow(tr("Which servo"), self.servo)
         rows.addLayout(which)
         buttons = QHBoxLayout()
         buttons.addWidget(self.clear)
         buttons.addWidget(self.power)
         rows.addLayout(buttons)
-        serving = QGroupBox("For other programs")
+        serving = QGroupBox(tr("For other programs"))
         column = QVBoxLayout(serving)
         column.setSpacing(6)
         about = wrapped_label("muted")
         about.setText(_SERVE)
         column.addWidget(about)
         choices = form()
-        choices.addRow("Through", self.way)
-        choices.addRow("Speed", self.baud)
+        choices.addRow(tr("Through"), self.way)
+        choices.addRow(tr("Speed"), self.baud)
         column.addLayout(choices)
         for widget in (self.serve, self.address, self.traffic, self.example, self.copy):
             column.addWidget(widget)
@@ -141,11 +147,11 @@ class VirtualPage(InspectPage):
             widget.setEnabled(arm is not None)
         self._show_servos(arm)
         address = self._served.address
-        self.serve.setText("Stop serving" if address else "Serve a virtual arm")
+        self.serve.setText(tr("Stop serving") if address else tr("Serve a virtual arm"))
         self.serve.setEnabled(bool(robot.servos) or bool(address))
         for widget in (self.way, self.baud):
             widget.setEnabled(not address)
-        self.address.setText(f"Waiting at {address}" if address else "")
+        self.address.setText(tr("Waiting at {address}", address=address) if address else "")
         self.example.setText(self._line)
         for part in (self.address, self.traffic, self.example, self.copy):
             part.setVisible(bool(address))
@@ -161,7 +167,11 @@ class VirtualPage(InspectPage):
 
     def _show_traffic(self) -> None:
         came, went = self._served.received_bytes, self._served.sent_bytes
-        words = f"{came:,} bytes came in, {went:,} went out. The Wire page shows them while no arm is connected."
+        words = tr(
+            "{came:,} bytes came in, {went:,} went out. The Wire page shows them while no arm is connected.",
+            came=came,
+            went=went,
+        )
         text = words if came or went else _SILENT
         if self.traffic.text() != text:
             self.traffic.setText(text)
@@ -189,7 +199,7 @@ class VirtualPage(InspectPage):
         arm = self._arm
         if arm is not None:
             arm.faults = arm.faults.switched(fault, on)
-            self._session.say(FAULT_WORDS[fault] if on else f"Mended: {fault.value}.")
+            self._session.say(FAULT_WORDS[fault] if on else tr("Mended: {value}.", value=fault.value))
 
     def _on_servo(self) -> None:
         arm = self._arm
@@ -217,4 +227,4 @@ class VirtualPage(InspectPage):
 
     def _on_copy(self) -> None:
         QGuiApplication.clipboard().setText(self._line)
-        self._session.say("Copied.")
+        self._session.say(tr("Copied."))

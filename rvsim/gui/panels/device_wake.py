@@ -11,19 +11,20 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_quantity, joint_kind
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.servos import clamped_pulses, pulses_of
 
-_WHY = (
+_WHY = tr_later(
     "The controller does not know yet where its servos are: the first move of each jumps at full speed, whatever is "
     "asked for. Bring the arm by hand to about the pose that is shown, keep clear, and wake one joint after the other."
 )
-_WHY_VIRTUAL = (
+_WHY_VIRTUAL = tr_later(
     "The controller does not know yet where its servos are: the first move of each jumps at full speed. "
     "With a real arm you would hold it near the pose that is shown."
 )
-_WHY_GENTLE = (
+_WHY_GENTLE = tr_later(
     "The encoder bridge measures where the joints are: each begins there and goes slowly to the pose that is shown. "
     "Keep clear, and wake one joint after the other."
 )
@@ -44,11 +45,14 @@ class WakeSection(QWidget):
         self.what.setObjectName("device_wake_text")
         set_role(self.what, level="warning")
         self.wake = button(
-            "device_wake", "Wake", "Move this joint for the first time, to the pose that is shown", self._on_wake
+            "device_wake",
+            tr("Wake"),
+            tr("Move this joint for the first time, to the pose that is shown"),
+            self._on_wake,
         )
-        self.skip = button("device_wake_skip", "Skip", "Leave this joint asleep for now", self._on_skip)
+        self.skip = button("device_wake_skip", tr("Skip"), tr("Leave this joint asleep for now"), self._on_skip)
         self.all = button(
-            "device_wake_all", "Wake all", "All joints at once: nothing can be hurt on a virtual arm",
+            "device_wake_all", tr("Wake all"), tr("All joints at once: nothing can be hurt on a virtual arm"),
             self.wake_all_wanted.emit,
         )  # fmt: skip
         row = QHBoxLayout()
@@ -84,21 +88,23 @@ class WakeSection(QWidget):
         self._joint = (later or asleep)[0]
         count = len(_awake(robot, state))
         name = robot.joint_names[self._joint] if self._joint < robot.dof else "gripper"
-        self.title.setText(f"Wake the arm: {count - len(asleep)} of {count} awake")
+        self.title.setText(tr("Wake the arm: {count} of {count2} awake", count=count - len(asleep), count2=count))
         self.why.setText(_WHY_GENTLE if gentle else _WHY_VIRTUAL if virtual else _WHY)
         self.what.setText(self._says(robot, q, name, gentle))
-        self.wake.setText(f"Wake {name}")
+        self.wake.setText(tr("Wake {name}", name=name))
         self.all.setVisible(virtual)
 
     def _says(self, robot: Robot, q: FloatArray, name: str, gentle: bool) -> str:
         if self._joint == robot.dof:
             assert robot.gripper_servo is not None
-            return "The gripper will open at once" + ("." if gentle else f" ({robot.gripper_servo.open_us:.0f} µs).")
+            return tr("The gripper will open at once") + (
+                "." if gentle else f" ({robot.gripper_servo.open_us:.0f} µs)."
+            )
         angle = format_quantity(float(q[self._joint]), joint_kind(robot, self._joint), self._preferences)
         if gentle:
-            return f"The {name} will go to {angle}."
+            return tr("The {name} will go to {angle}.", name=name, angle=angle)
         pulse = clamped_pulses(robot.servos, pulses_of(robot.servos, q))[self._joint]
-        return f"The {name} will jump to {angle} ({pulse:.0f} µs)."
+        return tr("The {name} will jump to {angle} ({pulse:.0f} µs).", name=name, angle=angle, pulse=pulse)
 
     def _on_wake(self) -> None:
         self.wake_wanted.emit(self._joint)

@@ -28,19 +28,20 @@ from rvsim.gui.stage import Stage
 from rvsim.gui.theme import THEMES, set_role
 from rvsim.gui.widgets import button, column_of, scrolled
 from rvsim.gui.workers import LatestWorker
+from rvsim.language import tr, tr_later
 
-_EMPTY = (
+_EMPTY = tr_later(
     "Nothing has gone over the wire yet: connect an arm on the Drive page, or serve one on the Virtual page.\n\n"
     "Then each line that goes to the arm (→) and each answer (←) is listed here with its time. Point at one to read "
     "what it means. The virtual arm speaks as a real one does, byte for byte."
 )
-_CLEARED = "Cleared. New lines appear as they come; Save still writes the whole log."
+_CLEARED = tr_later("Cleared. New lines appear as they come; Save still writes the whole log.")
 
 
 class WirePage(InspectPage):
     """Shows the log of the connection there is, of an arm that is served, or of the last one."""
 
-    title = "Wire"
+    title = tr_later("Wire")
     name = "wire"
 
     def __init__(
@@ -68,17 +69,22 @@ class WirePage(InspectPage):
         self._show_counts()
 
     def _make_controls(self) -> None:
-        self.pause = button("wire_pause", "Pause", "Hold the view; the wire goes on", self.toggle_pause)
-        self.clear = button("wire_clear", "Clear", "Empty the view; the log keeps everything", self.feed.clear)
-        self.copy = button("wire_copy", "Copy", "Copy the selected lines, or all that are shown", self.copy_lines)
-        self.save = button("wire_save", "Save…", "Write the whole log to a text file", self.ask_file)
-        self.end = button(
-            "wire_end", "Newest ▼", "Go to the newest line, and stay with it as lines come", self.table.follow_end
+        self.pause = button("wire_pause", tr("Pause"), tr("Hold the view; the wire goes on"), self.toggle_pause)
+        self.clear = button("wire_clear", tr("Clear"), tr("Empty the view; the log keeps everything"), self.feed.clear)
+        self.copy = button(
+            "wire_copy", tr("Copy"), tr("Copy the selected lines, or all that are shown"), self.copy_lines
         )
-        self.hide_polling = QCheckBox("Hide polling")
+        self.save = button("wire_save", tr("Save…"), tr("Write the whole log to a text file"), self.ask_file)
+        self.end = button(
+            "wire_end",
+            tr("Newest ▼"),
+            tr("Go to the newest line, and stay with it as lines come"),
+            self.table.follow_end,
+        )
+        self.hide_polling = QCheckBox(tr("Hide polling"))
         self.hide_polling.setObjectName("wire_hide_polling")
         self.hide_polling.setToolTip(
-            "Leave out what asks again and again where the arm is (Q, QP, VA …; Poll), and its answers"
+            tr("Leave out what asks again and again where the arm is (Q, QP, VA …; Poll), and its answers")
         )
         self.counters, self.note, self.empty = wrapped_label("muted"), wrapped_label(), wrapped_label("muted")
         self.counters.setObjectName("wire_counters")
@@ -175,23 +181,28 @@ class WirePage(InspectPage):
         _say(self.counters, self._counters())
         _say(self.note, self._note())
         set_role(self.note, level="warning" if self.feed.paused else "")
-        self.pause.setText("Resume" if self.feed.paused else "Pause")
+        self.pause.setText(tr("Resume") if self.feed.paused else tr("Pause"))
 
     def _counters(self) -> str:
-        counted = f"{self._sent:,} bytes sent, {self._received:,} received."
+        counted = tr("{sent:,} bytes sent, {received:,} received.", sent=self._sent, received=self._received)
         if not self.feed.slowest:
             return counted
         latest, slowest = milliseconds(self.feed.latest), milliseconds(self.feed.slowest)
-        return f"{counted} Answers after {latest}, the slowest after {slowest}."
+        return tr(
+            "{counted} Answers after {latest}, the slowest after {slowest}.",
+            counted=counted,
+            latest=latest,
+            slowest=slowest,
+        )
 
     def _note(self) -> str:
         lines, shown = len(self.model.lines), len(self.model.shown)
         if self.feed.paused:
-            return f"Paused. {_lines(self.feed.meanwhile)} came meanwhile: press Resume."
+            return tr("Paused. {lines} came meanwhile: press Resume.", lines=_lines(self.feed.meanwhile))
         if not lines:
             return _CLEARED
         if shown < lines:
-            return f"{_lines(lines - shown)} of polling hidden, {shown:,} shown."
+            return tr("{lines} of polling hidden, {shown:,} shown.", lines=_lines(lines - shown), shown=shown)
         return ""
 
     # --- taking it away --------------------------------------------------------------------------------------------
@@ -200,12 +211,12 @@ class WirePage(InspectPage):
         """The selected lines, or all that are shown, as text."""
         text, count = self.table.chosen_text()
         QGuiApplication.clipboard().setText(text)
-        self._session.say(f"Copied {_lines(count)} of the wire.")
+        self._session.say(tr("Copied {lines} of the wire.", lines=_lines(count)))
 
     def ask_file(self) -> None:
         """Ask where to, and write the whole log there."""
-        start = str(Path.home() / f"{self._session.robot.name}-wire.txt")
-        chosen, _ = QFileDialog.getSaveFileName(self, "Save the wire log", start, "Text (*.txt *.log)")
+        start = str(Path.home() / tr("{name}-wire.txt", name=self._session.robot.name))
+        chosen, _ = QFileDialog.getSaveFileName(self, tr("Save the wire log"), start, tr("Text (*.txt *.log)"))
         if chosen:
             self.save_to(Path(chosen) if Path(chosen).suffix else Path(chosen).with_suffix(".txt"))
 
@@ -241,5 +252,5 @@ def _saved(save: Callable[[Path], None], path: Path) -> tuple[str, str]:
     try:
         save(path)
     except FileWriteError as problem:
-        return f"Not saved: {problem}", "error"
-    return f"Saved {path}.", "info"
+        return tr("Not saved: {problem}", problem=problem), "error"
+    return tr("Saved {path}.", path=path), "info"

@@ -10,6 +10,7 @@ from rvsim.gui.panels.device_wire_search import WireSearch
 from rvsim.gui.panels.device_wire_table import WireTable
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
+from rvsim.language import tr
 
 _BUTTON = 32  # [pixels]
 
@@ -25,12 +26,12 @@ class FindRow(QWidget):
         self._goes = False  # Return was pressed before all lines had been looked at
         self.box = QLineEdit()
         self.box.setObjectName("wire_search")
-        self.box.setAccessibleName("Find in bytes and words")
-        self.box.setPlaceholderText("Find bytes or words")
-        self.box.setToolTip("For instance P1500, STOP, or shoulder. Return goes to the next one")
+        self.box.setAccessibleName(tr("Find in bytes and words"))
+        self.box.setPlaceholderText(tr("Find bytes or words"))
+        self.box.setToolTip(tr("For instance P1500, STOP, or shoulder. Return goes to the next one"))
         self.box.setClearButtonEnabled(True)
-        self.previous = button("wire_previous", "▲", "The match before (Shift+F3)", lambda: self.step(-1))
-        self.next = button("wire_next", "▼", "The next match (F3)", lambda: self.step(1))
+        self.previous = button("wire_previous", "▲", tr("The match before (Shift+F3)"), lambda: self.step(-1))
+        self.next = button("wire_next", "▼", tr("The next match (F3)"), lambda: self.step(1))
         self.count = QLabel()
         self.count.setObjectName("wire_matches")
         set_role(self.count, role="muted")

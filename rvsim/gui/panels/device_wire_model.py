@@ -15,15 +15,16 @@ from rvsim.gui.panels.device_wire_lines import Line, shown_bytes
 from rvsim.gui.panels.device_wire_words import Words
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index
 from rvsim.gui.theme import THEMES, Theme
+from rvsim.language import tr_later
 
 TIME, WAY, BYTES, WORDS = range(4)
 _TOP = QModelIndex()
-_HEADS = ("Time [s]", "", "Bytes", "In words")
+_HEADS = (tr_later("Time [s]"), "", tr_later("Bytes"), tr_later("In words"))
 _TIPS = (
-    "Seconds: 0 is when the connection was asked for, just before its port was opened, or when serving began",
-    "→ to the arm, ← from the arm",
+    tr_later("Seconds: 0 is when the connection was asked for, just before its port was opened, or when serving began"),
+    tr_later("→ to the arm, ← from the arm"),
     "What went over the wire; bytes that are no letters as \\r or \\x1b",
-    "What it means",
+    tr_later("What it means"),
 )
 _TINT = 60  # of 255, behind what was searched for
 _Role = Qt.ItemDataRole

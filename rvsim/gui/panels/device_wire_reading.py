@@ -13,9 +13,10 @@ from rvsim.gui.panels.device_wire_words import Words, what_it_would_do
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.tables import text_metrics
 from rvsim.gui.theme import set_role
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
-_HINT = "Point at a line, or click it, to read what it means."
+_HINT = tr_later("Point at a line, or click it, to read what it means.")
 _ROWS = 5
 _LONGEST_PART = 20  # characters that are kept together
 _BREAK = "\u200b"  # where a long line may go on below
@@ -42,8 +43,16 @@ class LineReading(QWidget):
             self.head.setText(_HINT)
             return
         count = len(line.entry.data)
-        way = "to the arm" if line.sent else "from the arm"
-        self.head.setText(f"{line.entry.time:.3f} s after the start, {count} {'byte' if count == 1 else 'bytes'} {way}")
+        way = tr("to the arm") if line.sent else tr("from the arm")
+        self.head.setText(
+            tr(
+                "{time:.3f} s after the start, {count} {value} {way}",
+                time=line.entry.time,
+                count=count,
+                value="byte" if count == 1 else "bytes",
+                way=way,
+            )
+        )
         self.bytes.setText(breakable(shown_bytes(line, words.language)))
         self.words.setText(words.told(line))
 
@@ -65,12 +74,12 @@ class TryLine(QWidget):
         super().__init__()
         self._robot: Robot | None = None
         self.title = wrapped_label("title")
-        self.title.setText("Try a line: what would it do?")
+        self.title.setText(tr("Try a line: what would it do?"))
         self.box = QLineEdit()
         self.box.setObjectName("wire_try")
-        self.box.setAccessibleName("A line for the SSC-32, to be explained and not sent")
+        self.box.setAccessibleName(tr("A line for the SSC-32, to be explained and not sent"))
         self.box.setPlaceholderText("#0P1500#1P1800T700")
-        self.box.setToolTip("A line in the language of the SSC-32. It is explained, nothing is sent")
+        self.box.setToolTip(tr("A line in the language of the SSC-32. It is explained, nothing is sent"))
         self.box.setStyleSheet(fixed_style())
         self.words = wrapped_label("muted")
         self.words.setObjectName("wire_try_words")
@@ -87,7 +96,7 @@ class TryLine(QWidget):
     def _say(self) -> None:
         typed = self.box.text()
         if self._robot is None or not typed:
-            self.words.setText("Type a line of the SSC-32's language. Nothing is sent.")
+            self.words.setText(tr("Type a line of the SSC-32's language. Nothing is sent."))
             set_role(self.words, role="muted")
             return
         self.words.setText(what_it_would_do(typed, self._robot))

@@ -10,6 +10,7 @@ from rvsim.device.wire_log import text
 from rvsim.gui.panels.device_wire_lines import Line
 from rvsim.gui.panels.device_wire_model import BYTES, TIME, WAY, WORDS, WireModel
 from rvsim.gui.panels.tables import CELL_MARGIN, plain_table, text_metrics
+from rvsim.language import tr
 
 _ROOM_FOR_WORDS = 620  # [pixels] in the usual size
 _FEWEST_ROWS = 7
@@ -29,7 +30,7 @@ class WireTable(QTableView):
     def __init__(self, model: WireModel) -> None:
         super().__init__()
         self._wire, self._following, self._own = model, True, False
-        plain_table("wire_log", "What went over the wire", model, self)
+        plain_table("wire_log", tr("What went over the wire"), model, self)
         self.setWordWrap(False)
         self.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)

@@ -10,10 +10,11 @@ from rvsim.device.ssc32.board_side import parse_line
 from rvsim.device.ssc32.commands import Query
 from rvsim.device.ssc32.words import reply_in_words, sent_in_words
 from rvsim.gui.panels.device_wire_lines import Language, Line
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
 _MOST_KEPT = 20_000  # texts; the same questions and answers come again and again
-_CUT = "Cut off before its end: the controller does nothing with it."
+_CUT = tr_later("Cut off before its end: the controller does nothing with it.")
 
 Key = tuple[str, bytes, bytes | None, bool, frozenset[int]]
 
@@ -39,7 +40,7 @@ class Words:
         """The same, with how long an answer took."""
         if math.isnan(line.latency):
             return self.of(line)
-        return f"{self.of(line)} Answered after {milliseconds(line.latency)}."
+        return tr("{of} Answered after {milliseconds}.", of=self.of(line), milliseconds=milliseconds(line.latency))
 
 
 def channel_names(robot: Robot) -> dict[int, str]:

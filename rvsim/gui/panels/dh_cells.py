@@ -19,12 +19,13 @@ from rvsim.gui.quantities import (
     length_kind,
     without_unit,
 )
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.edits import DHKey
 
 _LIMITS = {"lower": -math.inf, "upper": math.inf}
 _NONE = frozenset({"none", "no", "inf", "-inf", "\u2212inf", "+inf", "∞", "-∞", "\u2212∞", "+∞"})
-_TITLES = {"lower": "The lower limit", "upper": "The upper limit", "home": "The home"}
+_TITLES = {"lower": tr_later("The lower limit"), "upper": tr_later("The upper limit"), "home": tr_later("The home")}
 _LETTERS = {"theta": "θ", "d": "d", "a": "a", "alpha": "α"}
 _LARGEST = 1e4  # [rad, m]: beyond this a number is a slip of the keyboard
 
@@ -86,7 +87,7 @@ def typed(robot: Robot, joint: int, key: DHKey, text: str, preferences: Preferen
     try:
         value = evaluate_in(shown.suffix.strip(), bare) / shown.factor
     except ExpressionError as problem:
-        return Typed(problem=f"{title} stays as it was: {problem}")
+        return Typed(problem=tr("{title} stays as it was: {problem}", title=title, problem=problem))
     if text.strip() == edit_text(robot, joint, key, preferences):
         value = cell_value(robot, joint, key)  # an untouched text keeps every digit
     return Typed(value, _objection(robot, joint, key, value, shown))
@@ -114,7 +115,7 @@ def _with_q(joint: int, value: float, text: str) -> str:
 def _no_limit(title: str, key: DHKey) -> Typed:
     if key in _LIMITS:
         return Typed(_LIMITS[key])
-    return Typed(problem=f"{title} must be a number: only a limit can be none.")
+    return Typed(problem=tr("{title} must be a number: only a limit can be none.", title=title))
 
 
 def _objection(robot: Robot, joint: int, key: DHKey, value: float, shown: Display) -> str:
@@ -125,11 +126,32 @@ def _objection(robot: Robot, joint: int, key: DHKey, value: float, shown: Displa
         return "none" if math.isinf(number) else format_number(number * shown.factor, shown.decimals) + shown.suffix
 
     if abs(value) > _LARGEST:
-        return f"{title} stays as it was: {value * shown.factor:g}{shown.suffix} is too large for an arm."
+        return tr(
+            "{title} stays as it was: {value:g}{suffix} is too large for an arm.",
+            title=title,
+            value=value * shown.factor,
+            suffix=shown.suffix,
+        )
     if key == "lower" and value >= row.upper:
-        return f"{title} must lie below the upper limit, {text(row.upper)}; {text(value)} does not."
+        return tr(
+            "{title} must lie below the upper limit, {text}; {text2} does not.",
+            title=title,
+            text=text(row.upper),
+            text2=text(value),
+        )
     if key == "upper" and value <= row.lower:
-        return f"{title} must lie above the lower limit, {text(row.lower)}; {text(value)} does not."
+        return tr(
+            "{title} must lie above the lower limit, {text}; {text2} does not.",
+            title=title,
+            text=text(row.lower),
+            text2=text(value),
+        )
     if key == "home" and not row.lower <= value <= row.upper:
-        return f"{title} must lie within the limits, {text(row.lower)} … {text(row.upper)}; {text(value)} does not."
+        return tr(
+            "{title} must lie within the limits, {text} … {text2}; {text3} does not.",
+            title=title,
+            text=text(row.lower),
+            text2=text(row.upper),
+            text3=text(value),
+        )
     return ""

@@ -12,6 +12,7 @@ from rvsim.gui.panels.dh_cells import cell_kind, cell_text, cell_title, cell_val
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_quantity, length_kind
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.edits import DH_KEYS, DHKey
 
@@ -28,16 +29,16 @@ class Column(NamedTuple):
 
 
 COLUMNS = (
-    Column("number", "i", "i", "The joint's number"),
-    Column("type", "type", "type", "R: revolute, it turns about z; P: prismatic, it slides along z"),
-    Column("theta", "θ", "θ", "Angle about z, from the x axis before to the x axis behind the joint"),
-    Column("d", "d", "d", "Distance along z, between the two x axes"),
-    Column("a", "a", "aᵢ₋₁", "Distance along x, between the two z axes"),
-    Column("alpha", "α", "αᵢ₋₁", "Angle about x, between the two z axes"),
-    Column("name", "joint", "joint", "The joint's name"),
-    Column("lower", "lower", "lower", "The smallest q"),
-    Column("upper", "upper", "upper", "The largest q"),
-    Column("home", "home", "home", "q at home"),
+    Column("number", "i", "i", tr_later("The joint's number")),
+    Column("type", "type", "type", tr_later("R: revolute, it turns about z; P: prismatic, it slides along z")),
+    Column("theta", "θ", "θ", tr_later("Angle about z, from the x axis before to the x axis behind the joint")),
+    Column("d", "d", "d", tr_later("Distance along z, between the two x axes")),
+    Column("a", "a", "aᵢ₋₁", tr_later("Distance along x, between the two z axes")),
+    Column("alpha", "α", "αᵢ₋₁", tr_later("Angle about x, between the two z axes")),
+    Column("name", "joint", "joint", tr_later("The joint's name")),
+    Column("lower", "lower", "lower", tr_later("The smallest q")),
+    Column("upper", "upper", "upper", tr_later("The largest q")),
+    Column("home", "home", "home", tr_later("q at home")),
 )
 DH_COLUMNS = ("number", "type", "theta", "d", "a", "alpha")
 LIMIT_COLUMNS = ("name", "lower", "upper", "home")
@@ -193,10 +194,10 @@ class DHModel(QAbstractTableModel):
         suffix = display(cell_kind(self._robot, joint, key), self._preferences).suffix if full != "none" else ""
         parts = [f"{title}: {full}{suffix}."]
         if self.is_edited(joint, key):
-            parts.append(f"It was {self._original_text(joint, key)}.")
+            parts.append(tr("It was {original}.", original=self._original_text(joint, key)))
         elif self.is_assumed(joint, key):
-            parts.append("Assumed: no source gives it.")
-        return " ".join([*parts, "Double-click or type to change it; arrow keys step while editing."])
+            parts.append(tr("Assumed: no source gives it."))
+        return " ".join([*parts, tr("Double-click or type to change it; arrow keys step while editing.")])
 
     def _original_text(self, joint: int, key: DHKey) -> str:
         value = cell_value(self._original, joint, key)

@@ -33,14 +33,17 @@ from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import ElidedLabel, button, column_of, scrolled
 from rvsim.lab.texts import matrix_latex, matrix_numpy, table_tsv
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.edits import DH_KEYS, DHKey, with_dh_value
 
 CONVENTION_SENTENCES = {
-    "standard": "Standard DH: Aᵢ = Rz(θᵢ) · Tz(dᵢ) · Tx(aᵢ) · Rx(αᵢ).",
-    "modified": "Modified DH (Craig): Aᵢ = Rx(αᵢ₋₁) · Tx(aᵢ₋₁) · Tz(dᵢ) · Rz(θᵢ). Row i holds a and α of the link "
-    "before joint i, so frame i stands at the near end of its link.",
+    "standard": tr_later("Standard DH: Aᵢ = Rz(θᵢ) · Tz(dᵢ) · Tx(aᵢ) · Rx(αᵢ)."),
+    "modified": tr_later(
+        "Modified DH (Craig): Aᵢ = Rx(αᵢ₋₁) · Tx(aᵢ₋₁) · Tz(dᵢ) · Rz(θᵢ). Row i holds a and α of the link "
+        "before joint i, so frame i stands at the near end of its link."
+    ),
 }
 
 
@@ -56,15 +59,22 @@ class DHTablePanel(ReadOutPanel):
         self.model = DHModel(session.robot, preferences, self)
         self.model.edited.connect(lambda joint, key, value: self.edit_value(joint, cast(DHKey, key), value))
         self.model.refused.connect(self._complain)
-        self.rows = self._table("dh_table", "DH table", DH_COLUMNS)
-        self.limits = self._table("limits_table", "Joint limits and home", LIMIT_COLUMNS)
+        self.rows = self._table("dh_table", tr("DH table"), DH_COLUMNS)
+        self.limits = self._table("limits_table", tr("Joint limits and home"), LIMIT_COLUMNS)
         self.title, self.convention, self.message, self.legend = ElidedLabel(), QLabel(), QLabel(), QLabel()
         formats = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
-        self.copy = CopyButton("dh_copy", "the DH table", formats, session)
-        self.save = button("save_robot_button", "Save as robot file…", "Keep this arm in a file", self.ask_and_save)
-        self.open = button("open_robot_button", "Open robot file…", "Take an arm from a file", self.ask_and_open)
+        self.copy = CopyButton("dh_copy", tr("the DH table"), formats, session)
+        self.save = button(
+            "save_robot_button", tr("Save as robot file…"), tr("Keep this arm in a file"), self.ask_and_save
+        )
+        self.open = button(
+            "open_robot_button", tr("Open robot file…"), tr("Take an arm from a file"), self.ask_and_open
+        )
         self.back = button(
-            "original_robot_button", "Back to the original", "Take the arm as it was before the edits", self.go_back
+            "original_robot_button",
+            tr("Back to the original"),
+            tr("Take the arm as it was before the edits"),
+            self.go_back,
         )
         self._lay_out()
 
@@ -150,7 +160,7 @@ class DHTablePanel(ReadOutPanel):
             fit_height(table)
             table.setMinimumHeight(table.maximumHeight())
         self.title.setText(robot.title)
-        origin = f"Edited copy of the {original.title}.\n" if robot.name != original.name else ""
+        origin = tr("Edited copy of the {title}.\n", title=original.title) if robot.name != original.name else ""
         self.convention.setText(origin + CONVENTION_SENTENCES[robot.convention])
         self.legend.setText(self._legend(robot))
         self.back.setEnabled(self._differs(robot, original))
@@ -162,11 +172,11 @@ class DHTablePanel(ReadOutPanel):
 
     def _legend(self, robot: Robot) -> str:
         cells = [(joint, key) for joint in range(robot.dof) for key in DH_KEYS]
-        parts = ["Double-click a number to change it: the arm follows on a copy of your own."]
+        parts = [tr("Double-click a number to change it: the arm follows on a copy of your own.")]
         if any(self.model.is_edited(joint, key) for joint, key in cells):
-            parts.append("Bold: changed.")
+            parts.append(tr("Bold: changed."))
         if any(self.model.is_assumed(joint, key) for joint, key in cells):
-            parts.append("Italic: assumed, no source gives it.")
+            parts.append(tr("Italic: assumed, no source gives it."))
         return " ".join(parts)
 
     def _tell(self, sentence: str, level: str) -> None:
@@ -193,7 +203,7 @@ class DHTablePanel(ReadOutPanel):
             self._complain(str(problem))
             return
         title = cell_title(robot, joint, key)
-        text = f"Edit {title[0].lower()}{title[1:]} of {robot.title}"
+        text = tr("Edit {lower}{title} of {title2}", lower=title[0].lower(), title=title[1:], title2=robot.title)
         self._session.edit(text, self._session.experiment.with_robot(robot), merge=f"dh {joint} {key}")
         self._complain(" ".join(self._consequences(before, robot, joint, key)))
 
@@ -201,19 +211,30 @@ class DHTablePanel(ReadOutPanel):
         """What else the edit did, in sentences."""
         if key != "home" and after.joints[joint].home != before.joints[joint].home:
             home = format_quantity(after.joints[joint].home, cell_kind(after, joint, "home"), self._preferences)
-            yield f"{cell_title(after, joint, 'home')} moved to {home}, the nearest within the new limits."
+            yield tr(
+                "{cell_title} moved to {home}, the nearest within the new limits.",
+                cell_title=cell_title(after, joint, "home"),
+                home=home,
+            )
         for violation in limit_violations(after, self._session.q):
             kind = joint_kind(after, violation.joint)
             value, limit = (format_quantity(number, kind, self._preferences) for number in violation[1:])
-            yield f"“{after.joint_names[violation.joint]}” now stands at {value}, outside its limit {limit}."
+            yield tr(
+                "“{joint_names}” now stands at {value}, outside its limit {limit}.",
+                joint_names=after.joint_names[violation.joint],
+                value=value,
+                limit=limit,
+            )
         if any(new.assumed and not old.assumed for old, new in zip(before.masses, after.masses, strict=True)):
-            yield "The link keeps its mass, which now counts as assumed."
+            yield tr("The link keeps its mass, which now counts as assumed.")
 
     def go_back(self) -> None:
         """The arm as it was before the edits; an undo step leads back to them."""
         original = self.original
-        self._session.edit(f"Back to the {original.title}", self._session.experiment.with_robot(original))
-        self._tell(f"This is the {original.title} as it was. Undo brings your edits back.", "good")
+        self._session.edit(
+            tr("Back to the {title}", title=original.title), self._session.experiment.with_robot(original)
+        )
+        self._tell(tr("This is the {title} as it was. Undo brings your edits back.", title=original.title), "good")
 
     # --- files -----------------------------------------------------------------------------------------------------
 

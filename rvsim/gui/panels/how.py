@@ -20,6 +20,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import column_of, scrolled
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.worked import WorkedBranch, WorkedSolution, worked_latex, worked_solution
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -55,11 +56,11 @@ class HowPanel(ReadOutPanel):
             "LaTeX": lambda: self._latex(None),
             "LaTeX of this way only": lambda: self._latex(self.followed),
         }
-        self.copy = CopyButton("how_copy", "worked solution", formats, self._session)
+        self.copy = CopyButton("how_copy", tr("worked solution"), formats, self._session)
         self.title, self.hint, self.refusal = wrapped_label("title"), wrapped_label("muted"), wrapped_label()
         set_role(self.refusal, level="warning")
         self.tree_title = wrapped_label("title")
-        self.tree_title.setText("All branches")
+        self.tree_title.setText(tr("All branches"))
         self.tree = BranchTree(self._preferences)
         self.tree.chosen.connect(self.go_to)
 
@@ -133,7 +134,7 @@ class HowPanel(ReadOutPanel):
             self.solution = worked_solution(robot, T, q, shown_units(self._preferences))
         except NoClosedFormError as refusal:
             self.solution = None
-            self.refusal.setText(f"{refusal} The numeric solvers can still find solutions for it.")
+            self.refusal.setText(tr("{refusal} The numeric solvers can still find solutions for it.", refusal=refusal))
         self._show()
 
     def _show(self) -> None:
@@ -154,10 +155,12 @@ class HowPanel(ReadOutPanel):
         for widget in (self.tree, self.tree_title, self.copy):
             widget.setVisible(there)
         self.refusal.setVisible(not there)
-        what = "the present tool pose" if self._target is None else "the target"
-        self.title.setText(f"From {what} to the joints")
+        what = tr("the present tool pose") if self._target is None else tr("the target")
+        self.title.setText(tr("From {what} to the joints", what=what))
         family = self.solution.title if self.solution else self._session.robot.title
-        self.hint.setText(f"{family}. Branch: {', '.join(path)}." if path else f"{family}.")
+        self.hint.setText(
+            tr("{family}. Branch: {path}.", family=family, path=", ".join(path)) if path else f"{family}."
+        )
 
     def _add_step(self) -> None:
         view = StepView(self.typesetter)
@@ -177,7 +180,7 @@ class HowPanel(ReadOutPanel):
         assert self.solution is not None
         end = next(end for end in self.solution.branches if end.path == path)
         if end.branch is not None:
-            self._session.move_to(end.branch.q, f"Go to “{end.label}”")
+            self._session.move_to(end.branch.q, tr("Go to “{label}”", label=end.label))
         self.follow(path)
 
     def _latex(self, path: Path | None) -> str:

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QSizePolicy, QToo
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.theme import set_role
 from rvsim.lab.worked import Step
+from rvsim.language import tr
 
 Path = tuple[str, ...]
 _WIDEST_ROW = 34  # letters: longer choices stand below each other
@@ -120,8 +121,8 @@ class WaysRow(QWidget):
         button.setText(f"→ {way[-1]}")
         button.setCheckable(True)
         button.setObjectName(f"how_way_{'_'.join(way)}".replace(" ", "_"))
-        button.setAccessibleName(f"Follow {', '.join(way)}")
-        button.setToolTip(f"Read on with “{', '.join(way)}”; the arm stays where it is")
+        button.setAccessibleName(tr("Follow {way}", way=", ".join(way)))
+        button.setToolTip(tr("Read on with “{way}”; the arm stays where it is", way=", ".join(way)))
         button.clicked.connect(lambda _checked=False: self.followed.emit(way))
         return button
 

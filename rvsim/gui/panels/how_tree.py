@@ -13,6 +13,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_quantity, joint_kind
 from rvsim.gui.theme import set_role
 from rvsim.lab.worked import WorkedBranch
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -55,7 +56,7 @@ class BranchTree(QWidget):
             group = [path for path in paths if path[depth : depth + 1] == choice]
             if group[0][depth + 1 :] or not choice:
                 if not choice:
-                    self._add_row(column, group[0], "no branch")
+                    self._add_row(column, group[0], tr("no branch"))
                     continue
                 heading = QLabel(choice[0])
                 column.addWidget(heading)
@@ -116,12 +117,12 @@ class BranchRow(QWidget):
 def _state(q: FloatArray, end: WorkedBranch) -> tuple[str, str, str]:
     """The word, its level, and what a click does."""
     if end.branch is None:
-        return "✕ no solution", "error", "Read why there is no solution this way"
+        return tr("✕ no solution"), "error", tr("Read why there is no solution this way")
     if np.abs(end.branch.q - q).max() < _HERE:
-        return "● the arm is here", "good", "The arm is on this branch"
+        return tr("● the arm is here"), "good", tr("The arm is on this branch")
     if end.within_limits:
-        return "✓ within limits", "good", "Go there"
-    return "✕ outside limits", "warning", "Go there, if limits are ignored"
+        return tr("✓ within limits"), "good", tr("Go there")
+    return tr("✕ outside limits"), "warning", tr("Go there, if limits are ignored")
 
 
 def _joints(robot: Robot, q: FloatArray, preferences: Preferences) -> str:

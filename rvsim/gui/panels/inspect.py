@@ -15,15 +15,16 @@ from rvsim.gui.panels.inspect_workspace import WorkspacePage
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
+from rvsim.language import tr_later
 
 INSPECT: tuple[tuple[type[InspectPage], str], ...] = (
-    (JacobianPage, "The Jacobian, entry by entry, and where each column comes from"),
-    (VelocityPage, "From tool to joints and back, and jogging by held buttons"),
-    (SingularPage, "How near to a singularity, which one, and what is lost there"),
-    (ForcesPage, "Pull at the tool and see what every joint holds"),
-    (DynamicsPage, "Gravity, Coriolis and inertia, the mass matrix and the energies"),
-    (WorkspacePage, "Where the tool can go, in sections and in the scene"),
-    (SourcePage, "What the sources print wrongly, worked out beside what is right"),
+    (JacobianPage, tr_later("The Jacobian, entry by entry, and where each column comes from")),
+    (VelocityPage, tr_later("From tool to joints and back, and jogging by held buttons")),
+    (SingularPage, tr_later("How near to a singularity, which one, and what is lost there")),
+    (ForcesPage, tr_later("Pull at the tool and see what every joint holds")),
+    (DynamicsPage, tr_later("Gravity, Coriolis and inertia, the mass matrix and the energies")),
+    (WorkspacePage, tr_later("Where the tool can go, in sections and in the scene")),
+    (SourcePage, tr_later("What the sources print wrongly, worked out beside what is right")),
 )
 
 

@@ -39,6 +39,7 @@ from rvsim.gui.stage import Stage
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, column_of, combo, scrolled, select
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text, table_tsv
+from rvsim.language import tr, tr_later
 from rvsim.motion import Trajectory
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -51,7 +52,7 @@ _FREE = ""  # the place whose gravity is none of the known ones
 class DynamicsPage(InspectPage):
     """τ = M(q) q̈ + C(q, q̇) q̇ + g(q), live; while a motion is shown, with its velocities and accelerations."""
 
-    title = "Dynamics"
+    title = tr_later("Dynamics")
     name = "inspect_dynamics"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
@@ -63,13 +64,15 @@ class DynamicsPage(InspectPage):
         self.rates = RateRows(preferences)
         self.rates.edited.connect(self._on_rates)
         self.rates.refused.connect(self._complain)
-        self.at_rest = button("dynamics_rest", "At rest", "Set all velocities and accelerations to 0", self._rest)
-        self.gravity = self._box("gravity", "gravity", "Gravity", STANDARD_GRAVITY)
+        self.at_rest = button(
+            "dynamics_rest", tr("At rest"), tr("Set all velocities and accelerations to 0"), self._rest
+        )
+        self.gravity = self._box("gravity", "gravity", tr("Gravity"), STANDARD_GRAVITY)
         self.gravity.quantity_changed.connect(lambda _: self.refresh())
-        self.payload = self._box("dynamics_payload", "mass", "Payload at the tool", 0.0)
+        self.payload = self._box("dynamics_payload", "mass", tr("Payload at the tool"), 0.0)
         self.payload.quantity_changed.connect(self._take_payload)
         self.payload.editingFinished.connect(session.end_stroke)
-        self.place = combo("gravity_place", "Whose gravity", {**PLACES, _FREE: "own value"})
+        self.place = combo("gravity_place", tr("Whose gravity"), {**PLACES, _FREE: tr("own value")})
         self.place.activated.connect(lambda _: self._take_place())
         self.model = PartsModel(session.robot, preferences)
         self.table = parts_table(self.model)
@@ -92,20 +95,20 @@ class DynamicsPage(InspectPage):
 
     def _copy_buttons(self, session: Session) -> None:
         makers = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
-        self.copy = CopyButton("dynamics_copy", "the joint torques", makers, session)
+        self.copy = CopyButton("dynamics_copy", tr("the joint torques"), makers, session)
         matrix = {"text": matrix_text, "NumPy": matrix_numpy, "LaTeX": matrix_latex}
         of_matrix = {name: (lambda make=make: make(self._M)) for name, make in matrix.items()}
-        self.copy_matrix = CopyButton("mass_matrix_copy", "the mass matrix", of_matrix, session)
+        self.copy_matrix = CopyButton("mass_matrix_copy", tr("the mass matrix"), of_matrix, session)
 
     def _make_masses(self, session: Session, preferences: Preferences) -> None:
         self.masses = MassModel(session.robot, preferences)
         self.masses.edited.connect(lambda link, key, value: self.edit_mass(link, cast(MassKey, key), value))
         self.masses.refused.connect(self._complain)
-        self.centers = mass_table("mass_table", "Masses and their centres", self.masses, CENTER_COLUMNS)
-        self.inertias = mass_table("inertia_table", "Moments of inertia", self.masses, INERTIA_COLUMNS)
+        self.centers = mass_table("mass_table", tr("Masses and their centres"), self.masses, CENTER_COLUMNS)
+        self.inertias = mass_table("inertia_table", tr("Moments of inertia"), self.masses, INERTIA_COLUMNS)
         self.mass_note = wrapped_label("muted")
         self.guess = button(
-            "guess_masses", "Start with 1 kg a link", "Give each link 1 kg, half-way along it", self._guess
+            "guess_masses", tr("Start with 1 kg a link"), tr("Give each link 1 kg, half-way along it"), self._guess
         )
         self.missing = wrapped_label()
         self.missing.setObjectName("no_mass_data")
@@ -118,21 +121,21 @@ class DynamicsPage(InspectPage):
         known = QVBoxLayout(self.known)
         known.setContentsMargins(0, 0, 0, 0)
         known.setSpacing(6)
-        known.addLayout(beside(_titled("Motion"), self.at_rest))
+        known.addLayout(beside(_titled(tr("Motion")), self.at_rest))
         known.addWidget(self.rates)
         known.addWidget(self.note)
         known.addLayout(self._surroundings())
         known.addLayout(beside(self.torques_title, self.copy))
         for widget in (self.table, self.energy):
             known.addWidget(widget)
-        known.addLayout(beside(_titled("Mass matrix"), self.copy_matrix))
+        known.addLayout(beside(_titled(tr("Mass matrix")), self.copy_matrix))
         known.addWidget(self.equations)
         known.addWidget(self.matrix_note)
         inside = QWidget()
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
         column.setSpacing(6)
-        for shown in (self.missing, self.guess, self.known, self.message, _titled("Masses of the links")):
+        for shown in (self.missing, self.guess, self.known, self.message, _titled(tr("Masses of the links"))):
             column.addWidget(shown)
         for shown in (self.centers, self.inertias, self.mass_note):
             column.addWidget(shown)
@@ -146,8 +149,8 @@ class DynamicsPage(InspectPage):
         grid.setColumnStretch(1, 1)
         grid.setColumnStretch(2, 1)
         rows: tuple[tuple[str, tuple[QWidget, ...]], ...] = (
-            ("Gravity", (self.gravity, self.place)),
-            ("Payload", (self.payload,)),
+            (tr("Gravity"), (self.gravity, self.place)),
+            (tr("Payload"), (self.payload,)),
         )
         for row, (text, widgets) in enumerate(rows):
             grid.addWidget(QLabel(text), row, 0)
@@ -239,7 +242,7 @@ class DynamicsPage(InspectPage):
     def _take_payload(self, mass: float) -> None:
         experiment = self._session.experiment
         load = replace(experiment.load, payload=mass)
-        self._session.edit("Set the payload", experiment.with_load(load), merge="load payload")
+        self._session.edit(tr("Set the payload"), experiment.with_load(load), merge="load payload")
 
     def _complain(self, sentence: str) -> None:
         self.message.setText(sentence)
@@ -254,11 +257,11 @@ class DynamicsPage(InspectPage):
         except RobotDefinitionError as problem:
             self._complain(str(problem))
             return
-        self._use(robot, f"Edit the mass data of {robot.title}")
+        self._use(robot, tr("Edit the mass data of {title}", title=robot.title))
 
     def _guess(self) -> None:
         robot = with_guessed_masses(own_copy(self._session.robot))
-        self._use(robot, f"Give {robot.title} masses")
+        self._use(robot, tr("Give {title} masses", title=robot.title))
 
     def _use(self, robot: Robot, text: str) -> None:
         self._session.edit(text, self._session.experiment.with_robot(robot))
@@ -268,11 +271,11 @@ class DynamicsPage(InspectPage):
     def _head(self) -> str:
         robot = self._session.robot
         units = ", ".join(f"{name} [{unit}]" for name, unit in zip(robot.joint_names, self.model.units(), strict=True))
-        return f"{robot.title}: gravity, Coriolis, inertia, sum of {units}"
+        return tr("{title}: gravity, Coriolis, inertia, sum of {units}", title=robot.title, units=units)
 
     def _as_text(self) -> str:
         joints = zip(self._session.robot.joint_names, self.model.values.tolist(), strict=True)
-        header = [self._head(), "gravity", "Coriolis", "inertia", "sum"]
+        header = [self._head(), "gravity", tr("Coriolis"), "inertia", "sum"]
         return table_tsv(header, ([name, *row] for name, row in joints))
 
     def _as_numpy(self) -> str:

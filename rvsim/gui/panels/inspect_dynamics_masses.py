@@ -15,6 +15,7 @@ from rvsim.gui.panels.number_cells import make_editable
 from rvsim.gui.panels.tables import CELL_MARGIN, LEFT, RIGHT, Index, decimals_that_fit, dot, plain_table, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, Kind, display, format_number, length_kind, without_unit
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.mass_edits import MassKey, mass_value
 from rvsim.robot.robot import LinkMass
@@ -30,10 +31,10 @@ class MassColumn(NamedTuple):
     tip: str
 
 
-_COM = "of the centre of mass, in the link's DH frame"
-_MOMENT = "Moment of inertia about the centre of mass and the link's"
+_COM = tr_later("of the centre of mass, in the link's DH frame")
+_MOMENT = tr_later("Moment of inertia about the centre of mass and the link's")
 COLUMNS = (
-    MassColumn("mass", "m", "Mass of the link"),
+    MassColumn("mass", "m", tr_later("Mass of the link")),
     *(MassColumn(key, key, f"{key} {_COM}") for key in ("x", "y", "z")),
     MassColumn("xx", "Ixx", f"{_MOMENT} x axis"),
     MassColumn("yy", "Iyy", f"{_MOMENT} y axis"),
@@ -147,12 +148,12 @@ class MassModel(QAbstractTableModel):
         return font
 
     def _tip(self, index: Index) -> str:
-        name = f"The link behind “{self._robot.joint_names[index.row()]}”"
+        name = tr("The link behind “{joint_names}”", joint_names=self._robot.joint_names[index.row()])
         if not self._robot.masses:
-            return f"{name}: nothing is known. Double-click or type to enter a number."
+            return tr("{name}: nothing is known. Double-click or type to enter a number.", name=name)
         link = self._robot.masses[index.row()]
         if is_unsaid(link, COLUMNS[index.column() - 1].key):
-            return f"{name}: not in the source ({link.source}), taken as 0."
+            return tr("{name}: not in the source ({source}), taken as 0.", name=name, source=link.source)
         if index.column() > 0:
             number = self._text(index, whole=True).replace("-", "\u2212")
             name = f"{name}: {number}{self._shown(index.column()).suffix}"
@@ -181,7 +182,7 @@ class MassModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return LEFT if section == 0 else RIGHT
         if role == Qt.ItemDataRole.ToolTipRole:
-            return "The link behind that joint" if section == 0 else COLUMNS[section - 1].tip
+            return tr("The link behind that joint") if section == 0 else COLUMNS[section - 1].tip
         if role != Qt.ItemDataRole.DisplayRole:
             return None
         if section == 0:

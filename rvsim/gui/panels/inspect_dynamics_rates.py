@@ -12,6 +12,7 @@ from rvsim.gui.quantities import Kind, acceleration_kind, speed_kind
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import ElidedLabel
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -59,9 +60,15 @@ class RateRows(QWidget):
         name, mark = ElidedLabel(), QLabel()
         name.setText(robot.joint_names[joint])
         mark.setPixmap(dot(robot.joints[joint].color).pixmap(_DOT, _DOT))
-        speed = self._box(f"qd_{joint + 1}", f"Velocity of {robot.joint_names[joint]}", speed_kind(robot, joint))
+        speed = self._box(
+            f"qd_{joint + 1}",
+            tr("Velocity of {joint_names}", joint_names=robot.joint_names[joint]),
+            speed_kind(robot, joint),
+        )
         driven = self._box(
-            f"qdd_{joint + 1}", f"Acceleration of {robot.joint_names[joint]}", acceleration_kind(robot, joint)
+            f"qdd_{joint + 1}",
+            tr("Acceleration of {joint_names}", joint_names=robot.joint_names[joint]),
+            acceleration_kind(robot, joint),
         )
         for column, widget in enumerate((mark, name, speed, driven)):
             self._grid.addWidget(widget, joint + 1, column)

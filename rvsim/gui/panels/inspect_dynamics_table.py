@@ -11,19 +11,20 @@ from PySide6.QtWidgets import QHeaderView, QTableView
 from rvsim.gui.panels.tables import CELL_MARGIN, LEFT, RIGHT, Index, decimals_that_fit, dot, plain_table, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, torque_kind
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _TOP = QModelIndex()
-PARTS = ("gravity", "Coriolis", "inertia", "sum τ")
-_SHORT = ("grav.", "Cor.", "inert.", "sum τ")
+PARTS = ("gravity", tr_later("Coriolis"), "inertia", "sum τ")
+_SHORT = ("grav.", tr_later("Cor."), "inert.", "sum τ")
 _MORE = 1  # decimals: a small arm's parts are small
 _TIPS = (
-    "The joint",
-    "g(q): what holds the arm still",
-    "Coriolis and centrifugal: what the joints do to each other by moving",
-    "M(q) times the accelerations: what speeds it up",
-    "What the drive has to give, without friction",
+    tr_later("The joint"),
+    tr_later("g(q): what holds the arm still"),
+    tr_later("Coriolis and centrifugal: what the joints do to each other by moving"),
+    tr_later("M(q) times the accelerations: what speeds it up"),
+    tr_later("What the drive has to give, without friction"),
 )
 
 
@@ -125,7 +126,7 @@ class PartsModel(QAbstractTableModel):
 
 def parts_table(model: PartsModel) -> QTableView:
     """The view of a model."""
-    table = plain_table("dynamics_table", "Joint torques by their cause", model)
+    table = plain_table("dynamics_table", tr("Joint torques by their cause"), model)
     table.setSelectionMode(QTableView.SelectionMode.NoSelection)
     table.setFocusPolicy(Qt.FocusPolicy.NoFocus)
     table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)

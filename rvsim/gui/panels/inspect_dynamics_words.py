@@ -7,48 +7,60 @@ from collections.abc import Mapping, Sequence
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_number, format_quantity
 from rvsim.lab.worked import Equation
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 # [m/s²] at the surface: standard gravity, and the equatorial values of the planetary fact sheets.
-PLACES: Mapping[str, str] = {"9.80665": "Earth", "1.62": "Moon", "3.71": "Mars", "0.0": "none"}
+PLACES: Mapping[str, str] = {
+    "9.80665": tr_later("Earth"),
+    "1.62": tr_later("Moon"),
+    "3.71": tr_later("Mars"),
+    "0.0": "none",
+}
 _LARGE_ARM = 0.5  # [kg m²]
 
 
 def rates_note(time: float | None) -> str:
     """Where the rates come from."""
     if time is None:
-        return "Type rates, or play a motion: then they are the motion's own."
-    return f"From the motion, {format_number(time, 2)} s after its start."
+        return tr("Type rates, or play a motion: then they are the motion's own.")
+    return tr("From the motion, {format_number} s after its start.", format_number=format_number(time, 2))
 
 
 def energy_text(kinetic: float, potential: float, power: float, preferences: Preferences) -> str:
     """Both energies and the power of the drives."""
     T, V = (format_quantity(value, "energy", preferences) for value in (kinetic, potential))
     decimals = 2 + preferences["extra_decimals"]
-    return f"Kinetic {T}, potential {V}, power of the drives {format_number(power, decimals)} W."
+    return tr(
+        "Kinetic {t}, potential {v}, power of the drives {format_number} W.",
+        t=T,
+        v=V,
+        format_number=format_number(power, decimals),
+    )
 
 
 def no_mass_text(robot: Robot) -> str:
     """The empty state."""
-    return (
-        f"No mass data: no source says what the links of the {robot.title} weigh, so nothing can be said about its "
-        "dynamics. Type masses below, or start with a guess: the arm becomes a copy of your own, which can be saved."
+    return tr(
+        "No mass data: no source says what the links of the {title} weigh, so nothing can be said about its "
+        "dynamics. Type masses below, or start with a guess: the arm becomes a copy of your own, which can be saved.",
+        title=robot.title,
     )
 
 
 def mass_note(robot: Robot) -> str:
     """What the tables hold, where it comes from, how it is changed."""
-    parts = ["Centre of mass and moments in the link's DH frame."]
+    parts = [tr("Centre of mass and moments in the link's DH frame.")]
     if robot.length_unit == "unit":
-        parts.append("One unit counts as one metre.")
+        parts.append(tr("One unit counts as one metre."))
     if any(link.assumed for link in robot.masses):
-        parts.append("Italic: assumed.")
+        parts.append(tr("Italic: assumed."))
     parts += _unsaid_note(robot)
     sources = dict.fromkeys(link.source for link in robot.masses if link.source)
     if sources:
-        parts.append(f"Source: {'; '.join(sources)}.")
-    return " ".join([*parts, "Double-click a number to change it: the arm follows on a copy of your own."])
+        parts.append(tr("Source: {sources}.", sources="; ".join(sources)))
+    return " ".join([*parts, tr("Double-click a number to change it: the arm follows on a copy of your own.")])
 
 
 def _unsaid_note(robot: Robot) -> list[str]:
@@ -57,19 +69,21 @@ def _unsaid_note(robot: Robot) -> list[str]:
     if not any(silent):
         return []
     others = [f"{number}" for number, unsaid in enumerate(silent, start=1) if not unsaid]
-    but = f" but for link {', '.join(others)}" if others else ""
-    return [f"\u2013: not in the source, taken as 0; the mass matrix is that of point masses{but}."]
+    but = tr(" but for link {others}", others=", ".join(others)) if others else ""
+    return [tr("\u2013: not in the source, taken as 0; the mass matrix is that of point masses{but}.", but=but)]
 
 
 def torques_title(units: Sequence[str]) -> str:
     """With the unit that all joints share; else it stands at the sums."""
-    return f"Joint torques, {units[0]}" if len(set(units)) == 1 else "Joint torques"
+    return tr("Joint torques, {units}", units=units[0]) if len(set(units)) == 1 else tr("Joint torques")
 
 
 def matrix_note(robot: Robot) -> str:
     """Its units, and what it is for."""
-    units = "kg m²" if robot.is_revolute.all() else "kg m² between turning joints, kg between sliding ones, else kg m"
-    return f"In {units}. Kinetic energy: ½ vᵀ M v, v the joint velocities."
+    units = (
+        "kg m²" if robot.is_revolute.all() else tr("kg m² between turning joints, kg between sliding ones, else kg m")
+    )
+    return tr("In {units}. Kinetic energy: ½ vᵀ M v, v the joint velocities.", units=units)
 
 
 def matrix_decimals(robot: Robot) -> int:

@@ -42,22 +42,23 @@ from rvsim.gui.widgets import button, column_of, combo, scrolled, select, show_w
 from rvsim.gui.wrench_drag import WrenchDrag
 from rvsim.kinematics import pose_and_jacobian
 from rvsim.lab.texts import NamedValue, values_latex, values_numpy, values_text
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.wrench import WrenchArrows, arrow_scale, wrench_items
 
 _FORCES, _MOMENTS = ("fx", "fy", "fz"), ("mx", "my", "mz")
-_MEANING = (
+_MEANING = tr_later(
     "F is what the tool exerts, at the tool's origin. Drag the red dot at the tool to pull; with Ctrl in whole newtons."
 )
-_FORMULA_NOTE = "J of the tool in base axes; SI units: m, N, N m."
+_FORMULA_NOTE = tr_later("J of the tool in base axes; SI units: m, N, N m.")
 
 
 class ForcesPage(InspectPage):
     """τ = Jᵀ F, live."""
 
     always = True
-    title = "Forces"
+    title = tr_later("Forces")
     name = "inspect_forces"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
@@ -67,23 +68,23 @@ class ForcesPage(InspectPage):
         self._before_drag = self.load
         self._R: FloatArray = np.eye(3)
         self._torques: FloatArray = np.zeros(0)
-        self.axes = combo("wrench_axes", "Axes of the wrench", AXES)
+        self.axes = combo("wrench_axes", tr("Axes of the wrench"), AXES)
         self.axes.activated.connect(lambda _: self._take_axes())
         self.forces = self._row(_FORCES, "force", 0, "force")
         self.moments = self._row(_MOMENTS, "torque", 3, "moment")
-        self.payload = QuantityBox("mass", preferences, "Payload at the tool")
+        self.payload = QuantityBox("mass", preferences, tr("Payload at the tool"))
         self.payload.setObjectName("payload")
         self.payload.set_range(0.0, 1e4)
         self.payload.quantity_changed.connect(self._take_payload)
         self.payload.editingFinished.connect(session.end_stroke)
         self.payload.refused.connect(self._complain)
-        self.weight = QCheckBox("The arm holds its own weight too")
+        self.weight = QCheckBox(tr("The arm holds its own weight too"))
         self.weight.setObjectName("own_weight")
         self.weight.toggled.connect(self._take_weight)
-        self.clear = button("wrench_clear", "No force", "Take the wrench and the payload away", self._clear)
+        self.clear = button("wrench_clear", tr("No force"), tr("Take the wrench and the payload away"), self._clear)
         self.model = TorqueModel(session.robot, preferences, self.catch_up)
         self.table, self.torques_title = torque_table(self.model), _titled("")
-        self.directions = combo("force_direction", "Direction of the largest force", DIRECTIONS)
+        self.directions = combo("force_direction", tr("Direction of the largest force"), DIRECTIONS)
         self.directions.setCurrentIndex(self.directions.findData("+z"))
         self.directions.activated.connect(lambda _: self.refresh())
         self.legend, self.largest, self.message = wrapped_label("muted"), wrapped_label(), wrapped_label()
@@ -96,7 +97,7 @@ class ForcesPage(InspectPage):
         self.sources = SourcesButton("dynamics", self)
         makers = {"text": values_text, "NumPy": values_numpy, "LaTeX": values_latex}
         formats = {name: (lambda make=make: make(self._values())) for name, make in makers.items()}
-        self.copy = CopyButton("torque_copy", "the joint torques", formats, session)
+        self.copy = CopyButton("torque_copy", tr("the joint torques"), formats, session)
         self.drag = WrenchDrag(stage.view, lambda: self._arrows, self)
         self.drag.pulled.connect(self._on_pulled)
         self.drag.lit.connect(lambda _: self._draw())
@@ -106,8 +107,8 @@ class ForcesPage(InspectPage):
     # --- construction ----------------------------------------------------------------------------------------------
 
     def _row(self, names: tuple[str, ...], kind: Kind, first: int, what: str) -> NumberRow:
-        row = NumberRow("wrench", names, (kind,) * 3, self._preferences, "Wrench")
-        text = f"Set the {what} at the tool"
+        row = NumberRow("wrench", names, (kind,) * 3, self._preferences, tr("Wrench"))
+        text = tr("Set the {what} at the tool", what=what)
         row.edited.connect(lambda _: self._take(text, self.load.with_wrench(first, row.values), what))
         row.finished.connect(self._session.end_stroke)
         row.refused.connect(self._complain)
@@ -119,12 +120,12 @@ class ForcesPage(InspectPage):
         meaning = wrapped_label("muted")
         meaning.setText(_MEANING)
         carried = QHBoxLayout()
-        carried.addWidget(QLabel("Payload"))
+        carried.addWidget(QLabel(tr("Payload")))
         carried.addWidget(self.payload, 1)
         carried.addWidget(self.clear)
         show_whole(self.directions)
         asked = FoldingRow(
-            group_of(_titled("Largest force along"), stretched=True), group_of(self.directions, stretched=True), 8
+            group_of(_titled(tr("Largest force along")), stretched=True), group_of(self.directions, stretched=True), 8
         )
         note = wrapped_label("muted")
         note.setText(_FORMULA_NOTE)
@@ -132,7 +133,7 @@ class ForcesPage(InspectPage):
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
         column.setSpacing(6)
-        column.addLayout(_line(_titled("Wrench F"), self.axes))
+        column.addLayout(_line(_titled(tr("Wrench F")), self.axes))
         for widget in (self.forces, self.moments):
             column.addWidget(widget)
         column.addLayout(carried)
@@ -176,29 +177,32 @@ class ForcesPage(InspectPage):
         self._session.edit(text, self._session.experiment.with_load(load), merge=f"load {merge}" if merge else "")
 
     def _take_payload(self, mass: float) -> None:
-        self._take("Set the payload", replace(self.load, payload=mass), "payload")
+        self._take(tr("Set the payload"), replace(self.load, payload=mass), "payload")
 
     def _take_weight(self, on: bool) -> None:
-        self._take(f"{'Count' if on else 'Leave out'} the arm's own weight", replace(self.load, own_weight=on))
+        self._take(
+            tr("{value} the arm's own weight", value=tr("Count") if on else tr("Leave out")),
+            replace(self.load, own_weight=on),
+        )
 
     def _take_axes(self) -> None:
         """The same wrench, seen in other axes."""
         axes = next(axes for axes in get_args(WrenchAxes) if axes == self.axes.currentData())
         if axes != self.load.axes:
-            self._take(f"Write the wrench {AXES[axes]}", self.load.in_axes(axes, self._R))
+            self._take(tr("Write the wrench {axes}", axes=AXES[axes]), self.load.in_axes(axes, self._R))
 
     def _clear(self) -> None:
         if np.any(self.load.wrench) or self.load.payload:
-            self._take("Take the load away", replace(self.load, wrench=np.zeros(6), payload=0.0))
+            self._take(tr("Take the load away"), replace(self.load, wrench=np.zeros(6), payload=0.0))
 
     def _on_pulled(self, force: FloatArray) -> None:
         """The arrow's end has been dragged there."""
         force = self._R.T @ force if self.load.axes == "tool" else force
-        self._take("Pull at the tool", self.load.with_wrench(0, force), "pull")
+        self._take(tr("Pull at the tool"), self.load.with_wrench(0, force), "pull")
 
     def _on_released(self, given_up: bool) -> None:
         if given_up and self.load is not self._before_drag:
-            self._take("Pull at the tool", self._before_drag, "pull")
+            self._take(tr("Pull at the tool"), self._before_drag, "pull")
         self._session.end_stroke()
         self.refresh()
 
@@ -296,7 +300,10 @@ class ForcesPage(InspectPage):
         robot = self._session.robot
         units = (display(torque_kind(robot, i), self._preferences).suffix.strip() for i in range(robot.dof))
         values = zip(robot.joint_names, self._torques.tolist(), units, strict=True)
-        return [NamedValue(f"tau_{i} ({name})", value, unit) for i, (name, value, unit) in enumerate(values, start=1)]
+        return [
+            NamedValue(tr("tau_{i} ({name})", i=i, name=name), value, unit)
+            for i, (name, value, unit) in enumerate(values, start=1)
+        ]
 
 
 def _typical_force(robot: Robot) -> float:

@@ -19,19 +19,26 @@ from rvsim.gui.quantities import Display, display, format_number, torque_kind, w
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
+from rvsim.language import tr, tr_later
 from rvsim.robot import Datum, Robot
 from rvsim.robot.rating_edits import rating_origin, with_guessed_ratings, with_max_torque
 
 _TOP = QModelIndex()
 _JOINT, _RATING, _ORIGIN = range(3)
 _HEADS = ("joint", "rating", "origin")
-_TIPS = ("The joint", "What its drive can hold", "Who says so: a source, nobody (assumed), or you")
+_TIPS = (
+    tr_later("The joint"),
+    tr_later("What its drive can hold"),
+    tr_later("Who says so: a source, nobody (assumed), or you"),
+)
 _GAP, _DOT_ROOM = 22, 30  # [pixels]
 _NONE = ("", "-", "\u2013", "none")
-_HOW = (
+_HOW = tr_later(
     "Double-click a rating to change it, empty it for none: the arm follows on a copy of your own, which can be saved."
 )
-_UNKNOWN = "No source gives this arm's ratings: the bars stay empty, and no force is the largest, until there are some."
+_UNKNOWN = tr_later(
+    "No source gives this arm's ratings: the bars stay empty, and no force is the largest, until there are some."
+)
 
 
 class RatingModel(QAbstractTableModel):
@@ -121,10 +128,16 @@ class RatingModel(QAbstractTableModel):
     def _tip(self, joint: int) -> str:
         name, rating, shown = self._robot.joints[joint].name, self._robot.joints[joint].max_torque, self._shown(joint)
         if rating is None:
-            return f"The drive of “{name}”: no rating is known. Double-click or type to enter one."
-        said = {"source": "From: ", "assumed": "Assumed: ", "yours": "Yours: "}[rating_origin(rating)]
+            return tr("The drive of “{name}”: no rating is known. Double-click or type to enter one.", name=name)
+        said = {"source": tr("From: "), "assumed": tr("Assumed: "), "yours": tr("Yours: ")}[rating_origin(rating)]
         number = f"{rating.value * shown.factor:.12g}{shown.suffix}"
-        return f"The drive of “{name}”: {number}. {said}{rating.source or 'its robot file'}."
+        return tr(
+            "The drive of “{name}”: {number}. {said}{value}.",
+            name=name,
+            number=number,
+            said=said,
+            value=rating.source or tr("its robot file"),
+        )
 
     def _shown(self, joint: int) -> Display:
         return display(torque_kind(self._robot, joint), self._preferences)
@@ -184,12 +197,12 @@ class Ratings(QWidget):
         self.model.refused.connect(self._complain)
         self.table = _rating_table(self.model)
         self.guess = button(
-            "guess_ratings", "Start with a guess", "Give each drive 10 N m, sliding ones 100 N", self._guess
+            "guess_ratings", tr("Start with a guess"), tr("Give each drive 10 N m, sliding ones 100 N"), self._guess
         )
         self.note, self.message = wrapped_label("muted"), wrapped_label()
         set_role(self.message, level="warning")
         self.message.hide()
-        title = QLabel("Torque ratings")
+        title = QLabel(tr("Torque ratings"))
         set_role(title, role="title")
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -217,7 +230,7 @@ class Ratings(QWidget):
         except RobotDefinitionError as problem:
             self._complain(_sentence(problem.what))
             return
-        self._use(robot, f"Edit the torque rating of J{joint + 1} of {robot.title}")
+        self._use(robot, tr("Edit the torque rating of J{joint} of {title}", joint=joint + 1, title=robot.title))
 
     def _complain(self, sentence: str) -> None:
         self.message.setText(sentence)
@@ -225,7 +238,7 @@ class Ratings(QWidget):
 
     def _guess(self) -> None:
         robot = with_guessed_ratings(own_copy(self._session.robot))
-        self._use(robot, f"Give {robot.title} torque ratings")
+        self._use(robot, tr("Give {title} torque ratings", title=robot.title))
 
     def _use(self, robot: Robot, text: str) -> None:
         self._session.edit(text, self._session.experiment.with_robot(robot))
@@ -237,7 +250,7 @@ def _sentence(reason: str) -> str:
 
 
 def _rating_table(model: RatingModel) -> QTableView:
-    table = plain_table("rating_table", "Torque ratings", model)
+    table = plain_table("rating_table", tr("Torque ratings"), model)
     header = table.horizontalHeader()
     header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
     header.setSectionResizeMode(_JOINT, QHeaderView.ResizeMode.Stretch)

@@ -24,18 +24,19 @@ from rvsim.gui.panels.tables import (
 )
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, torque_kind
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
 _TOP = QModelIndex()
 _JOINT, _PUSHED, _HELD, _TOTAL, _BAR = range(5)
-_HEADS = ("joint", "from F", "weight", "τ", "of its rating")
+_HEADS = ("joint", "from F", "weight", "τ", tr_later("of its rating"))
 _SHORT = ("joint", "JᵀF", "g(q)", "τ", "rating")
 _TIPS = (
-    "The joint",
-    "JᵀF: what the wrench takes",
-    "g(q): what the arm's own weight takes",
-    "What the drive has to give",
-    "How much of the drive's torque rating that is",
+    tr_later("The joint"),
+    tr_later("JᵀF: what the wrench takes"),
+    tr_later("g(q): what the arm's own weight takes"),
+    tr_later("What the drive has to give"),
+    tr_later("How much of the drive's torque rating that is"),
 )
 _BAR_HEIGHT = 11.0
 _WIDEST, _LEAST_BAR, _DOT_ROOM = "≈ 000 %", 24, 30  # [pixels]
@@ -140,7 +141,7 @@ class TorqueModel(QAbstractTableModel):
     @property
     def title(self) -> str:
         """What the table is, with the unit that all joints share; else it stands at the numbers."""
-        return ", ".join(["Joint torques", *([self._common_unit()] if self._common_unit() else [])])
+        return ", ".join([tr("Joint torques"), *([self._common_unit()] if self._common_unit() else [])])
 
     def _common_unit(self) -> str:
         """The unit that all joints share, or nothing."""
@@ -162,7 +163,7 @@ class TorqueModel(QAbstractTableModel):
 
 def torque_table(model: TorqueModel) -> QTableView:
     """The view of a model."""
-    table = plain_table("torque_table", "Joint torques", model, TorqueTable())
+    table = plain_table("torque_table", tr("Joint torques"), model, TorqueTable())
     table.setItemDelegateForColumn(_BAR, BarDelegate(table))
     table.setSelectionMode(QTableView.SelectionMode.NoSelection)
     table.setFocusPolicy(Qt.FocusPolicy.NoFocus)

@@ -12,19 +12,24 @@ from rvsim.dynamics import LargestForce
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_quantity, moment_kind, torque_kind
 from rvsim.lab.worked import Equation
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.rating_edits import RatingOrigin, rating_origin
 
 DIRECTIONS: Mapping[str, str] = {
-    "wrench": "the wrench above",
+    "wrench": tr_later("the wrench above"),
     "+x": "+x", "-x": "\u2212x", "+y": "+y", "-y": "\u2212y", "+z": "+z", "-z": "\u2212z",
 }  # fmt: skip
-AXES: Mapping[str, str] = {"base": "in base axes", "tool": "in tool axes"}
-HANGING = (
+AXES: Mapping[str, str] = {"base": tr_later("in base axes"), "tool": tr_later("in tool axes")}
+HANGING = tr_later(
     "The payload pulls down at the tool; to hold it the tool pushes up with m g, which is added to F in τ = Jᵀ F below."
 )
-_ORIGINS: Mapping[RatingOrigin, str] = {"source": "", "assumed": ", an assumed rating", "yours": ", your rating"}
+_ORIGINS: Mapping[RatingOrigin, str] = {
+    "source": "",
+    "assumed": tr_later(", an assumed rating"),
+    "yours": tr_later(", your rating"),
+}
 _DECIMALS = 2
 _UNIT_VECTORS = dict(zip("xyz", np.eye(3), strict=True))
 
@@ -81,8 +86,10 @@ def direction_vector(name: str, wrench: FloatArray) -> FloatArray | None:
 
 def besides_text(payload: float, own_weight: bool, preferences: Preferences) -> str:
     """What the drives hold while the tool pushes, "" for nothing else."""
-    held = [f"the payload of {format_quantity(payload, 'mass', preferences)}"] * (payload > 0.0)
-    held += ["the arm's own weight"] * own_weight
+    held = [tr("the payload of {format_quantity}", format_quantity=format_quantity(payload, "mass", preferences))] * (
+        payload > 0.0
+    )
+    held += [tr("the arm's own weight")] * own_weight
     return " and ".join(held)
 
 
@@ -91,12 +98,12 @@ def largest_text(
 ) -> str:
     """The answer to "how strongly can it push that way?", while it holds what stands in `besides`."""
     if found is None:
-        return "There is no wrench above: enter one, or choose a direction."
+        return tr("There is no wrench above: enter one, or choose a direction.")
     if found.joint is None:
         known = [joint.max_torque for joint in robot.joints if joint.max_torque]
         if not known:
-            return "No joint of this arm has a torque rating: enter some below."
-        return "No bound: at this pose no rated joint has a lever in that direction, the bearings hold it all."
+            return tr("No joint of this arm has a torque rating: enter some below.")
+        return tr("No bound: at this pose no rated joint has a lever in that direction, the bearings hold it all.")
     joint = robot.joints[found.joint]
     rating = joint.max_torque
     assert rating is not None, "only a rated joint limits"
@@ -104,11 +111,24 @@ def largest_text(
     name = f"J{found.joint + 1} {joint.name}"
     assumed = _ORIGINS[rating_origin(rating)]
     if found.force == 0.0:
-        with_it = f" with {besides}" if besides else ""
-        return f"None: {name} is at its {limit} already{with_it}{assumed}."
+        with_it = tr(" with {besides}", besides=besides) if besides else ""
+        return tr(
+            "None: {name} is at its {limit} already{with_it}{assumed}.",
+            name=name,
+            limit=limit,
+            with_it=with_it,
+            assumed=assumed,
+        )
     amount = format_quantity(found.force, moment_kind(robot) if pure_moment else "force", preferences)
-    counted = f" {besides[0].upper()}{besides[1:]} counted in." if besides else ""
-    return f"{amount}: then {name} reaches its {limit}{assumed}.{counted}"
+    counted = tr(" {upper}{besides} counted in.", upper=besides[0].upper(), besides=besides[1:]) if besides else ""
+    return tr(
+        "{amount}: then {name} reaches its {limit}{assumed}.{counted}",
+        amount=amount,
+        name=name,
+        limit=limit,
+        assumed=assumed,
+        counted=counted,
+    )
 
 
 def rating_text(row: TorqueRow, robot: Robot, joint: int, preferences: Preferences) -> str:
@@ -116,7 +136,7 @@ def rating_text(row: TorqueRow, robot: Robot, joint: int, preferences: Preferenc
     kind = torque_kind(robot, joint)
     total = f"J{joint + 1} {row.name}: {format_quantity(row.total, kind, preferences)}"
     if math.isnan(row.rating):
-        return f"{total}. No rating is known."
+        return tr("{total}. No rating is known.", total=total)
     origin = {"assumed": "assumed: ", "yours": "yours, "}.get(row.origin or "", "")
     rating = format_quantity(row.rating, kind, preferences)
     return f"{total}, {share_text(row)} of {rating} ({origin}{row.rating_source or 'robot file'})."
@@ -134,11 +154,11 @@ def legend(rows: tuple[TorqueRow, ...]) -> str:
     """What the bars mean."""
     parts = []
     if any(not math.isnan(row.rating) for row in rows):
-        parts.append("Bar: share of the rating, left negative, right positive.")
+        parts.append(tr("Bar: share of the rating, left negative, right positive."))
     if any(row.rating_assumed for row in rows):
-        parts.append("≈ and a dashed frame: the rating is assumed.")
+        parts.append(tr("≈ and a dashed frame: the rating is assumed."))
     if any(math.isnan(row.rating) for row in rows):
-        parts.append("\u2013: no rating is known.")
+        parts.append(tr("\u2013: no rating is known."))
     return " ".join(parts)
 
 

@@ -34,13 +34,14 @@ from rvsim.gui.stage import Stage
 from rvsim.gui.widgets import column_of, combo, scrolled, show_whole
 from rvsim.kinematics.differences import Rows, jacobian_by_differences
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.jacobian_column import column_items
 
-_PARTS = {"all": "All of J", "position": "Position, Jv", "turning": "Turning, Jω"}
+_PARTS = {"all": tr_later("All of J"), "position": tr_later("Position, Jv"), "turning": tr_later("Turning, Jω")}
 _ROWS = {"all": slice(0, 6), "position": slice(0, 3), "turning": slice(3, 6)}
 _SIGNS = {"all": "J", "position": "Jv", "turning": "Jω"}
-_HINT = "Point at a column, or go to it with the arrow keys: the scene shows where it comes from."
+_HINT = tr_later("Point at a column, or go to it with the arrow keys: the scene shows where it comes from.")
 _GAP = 6  # [pixels]
 _RANK_ABOVE = 1e-6  # a singular value, as everywhere in this program
 _MARKS = {"text": "", "NumPy": "# ", "LaTeX": "% "}
@@ -51,21 +52,23 @@ class JacobianPage(InspectPage):
     """Shows J of the present pose."""
 
     always = True
-    title = "Jacobian"
+    title = tr_later("Jacobian")
     name = "inspect_jacobian"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
         super().__init__(session, preferences, stage, parent)
         self._J: FloatArray = np.zeros((6, 0))
-        self.kinds = combo("jacobian_axes", "Rows of the Jacobian", {name: kind.title for name, kind in KINDS.items()})
-        self.parts = combo("jacobian_part", "Part of the Jacobian", _PARTS)
+        self.kinds = combo(
+            "jacobian_axes", tr("Rows of the Jacobian"), {name: kind.title for name, kind in KINDS.items()}
+        )
+        self.parts = combo("jacobian_part", tr("Part of the Jacobian"), _PARTS)
         for box in (self.kinds, self.parts):
             box.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
         makers = {"text": matrix_text, "NumPy": matrix_numpy, "LaTeX": matrix_latex}
         formats = {
             name: (lambda make=make, name=name: self._copied(make(self.shown), name)) for name, make in makers.items()
         }
-        self.copy = CopyButton("jacobian_copy", "the Jacobian", formats, session)
+        self.copy = CopyButton("jacobian_copy", tr("the Jacobian"), formats, session)
         self.table = JacobianTable(JacobianModel(self, self.catch_up))
         self.table.lit.connect(lambda _: self._show_column())
         self.meaning, self.units, self.rank, self.check = (wrapped_label("muted") for _ in range(4))
@@ -73,9 +76,9 @@ class JacobianPage(InspectPage):
         for label, part in ((self.rank, "rank"), (self.check, "check"), (self.column, "column"), (self.note, "note")):
             label.setObjectName(f"jacobian_{part}")
         self.equations = EquationsView(Typesetter(self))
-        self.whole = QCheckBox("Every column with its numbers")
+        self.whole = QCheckBox(tr("Every column with its numbers"))
         self.whole.setObjectName("jacobian_whole")
-        self.whole.setToolTip("J's definition for this arm, the present values substituted")
+        self.whole.setToolTip(tr("J's definition for this arm, the present values substituted"))
         self.whole.toggled.connect(lambda _: self._show_column())
         self.sources = SourcesButton("jacobian", self)
         self._lay_out()
@@ -165,5 +168,12 @@ def rank_line(J: FloatArray, sign: str) -> str:
         return ""
     most = min(J.shape)
     rank = int((np.linalg.svd(J, compute_uv=False) > _RANK_ABOVE).sum())
-    verdict = "full" if rank == most else f"{most} is the most: a direction is lost here"
-    return f"Rank of {sign} ({J.shape[0]}×{J.shape[1]}): {rank}, {verdict}."
+    verdict = "full" if rank == most else tr("{most} is the most: a direction is lost here", most=most)
+    return tr(
+        "Rank of {sign} ({shape}×{shape2}): {rank}, {verdict}.",
+        sign=sign,
+        shape=J.shape[0],
+        shape2=J.shape[1],
+        rank=rank,
+        verdict=verdict,
+    )

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QHeaderView, QStyledItemDelegate, QStyleOptionView
 from rvsim.gui.panels.tables import RIGHT, Index, dot, fit_height, text_metrics
 from rvsim.gui.quantities import format_number
 from rvsim.gui.theme import number_font
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 
 _TINTS = ("#d9730d", "#1f6feb")  # of negative and of positive numbers
@@ -157,7 +158,7 @@ class JacobianTable(QTableView):
     def __init__(self, model: JacobianModel, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("jacobian_table")
-        self.setAccessibleName("Jacobian")
+        self.setAccessibleName(tr("Jacobian"))
         self.setModel(model)
         self.jacobian = model
         self.setShowGrid(False)

@@ -15,6 +15,7 @@ from rvsim.kinematics import jacobian, link_transforms
 from rvsim.kinematics.differences import Rows
 from rvsim.kinematics.rates import analytic_jacobian, tool_jacobian
 from rvsim.lab.worked import Equation
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.jacobian_column import frame_of_joint
@@ -34,17 +35,21 @@ class JacobianKind(NamedTuple):
 _LINEAR = ("vx", "vy", "vz")
 _TURNS = ("ωx", "ωy", "ωz")
 KINDS: dict[Rows, JacobianKind] = {
-    "base": JacobianKind("Base axes", (*_LINEAR, *_TURNS), "Geometric: v and ω of the tool in the base's axes."),
-    "tool": JacobianKind("Tool axes", (*_LINEAR, *_TURNS), "Geometric: v and ω of the tool in its own axes."),
+    "base": JacobianKind(
+        tr_later("Base axes"), (*_LINEAR, *_TURNS), tr_later("Geometric: v and ω of the tool in the base's axes.")
+    ),
+    "tool": JacobianKind(
+        tr_later("Tool axes"), (*_LINEAR, *_TURNS), tr_later("Geometric: v and ω of the tool in its own axes.")
+    ),
     "rpy": JacobianKind(
-        "RPY rates",
+        tr_later("RPY rates"),
         ("ẋ", "ẏ", "ż", "roll′", "pitch′", "yaw′"),
-        "Analytic: how fast position, roll, pitch and yaw change.",
+        tr_later("Analytic: how fast position, roll, pitch and yaw change."),
     ),
     "zyz": JacobianKind(
-        "ZYZ rates",
+        tr_later("ZYZ rates"),
         ("ẋ", "ẏ", "ż", "φ′", "θ′", "ψ′"),
-        "Analytic: how fast position and the ZYZ angles change.",
+        tr_later("Analytic: how fast position and the ZYZ angles change."),
     ),
 }
 FORMULAS: dict[Rows, Callable[[Robot, FloatArray], FloatArray]] = {
@@ -54,8 +59,8 @@ FORMULAS: dict[Rows, Callable[[Robot, FloatArray], FloatArray]] = {
     "zyz": partial(analytic_jacobian, angles="zyz"),
 }
 _LOCKED = {
-    "rpy": "At pitch ±90° roll and yaw have no rates: the notation is singular there, not the arm.",
-    "zyz": "At θ = 0° or 180° φ and ψ have no rates: the notation is singular there, not the arm.",
+    "rpy": tr_later("At pitch ±90° roll and yaw have no rates: the notation is singular there, not the arm."),
+    "zyz": tr_later("At θ = 0° or 180° φ and ψ have no rates: the notation is singular there, not the arm."),
 }
 
 
@@ -73,7 +78,9 @@ def length_factor(robot: Robot, preferences: Preferences) -> tuple[float, str, i
 def table_rows(kind: Rows, robot: Robot, preferences: Preferences) -> tuple[Row, ...]:
     """The six rows."""
     _, unit, decimals = length_factor(robot, preferences)
-    words = [f"speed of the tool's origin [{unit}/s per joint speed]"] * 3 + ["turning [rad/s per joint speed]"] * 3
+    words = [tr("speed of the tool's origin [{unit}/s per joint speed]", unit=unit)] * 3 + [
+        tr("turning [rad/s per joint speed]")
+    ] * 3
     places = [decimals] * 3 + [_MOST_DECIMALS] * 3
     return tuple(
         Row(name, f"{name}: {text}", count, block)
@@ -106,9 +113,13 @@ def entry_units(robot: Robot, preferences: Preferences) -> list[list[str]]:
 def units_line(robot: Robot, preferences: Preferences) -> str:
     """The units in a line below the table."""
     unit = length_factor(robot, preferences)[1]
-    kinds = [f"{unit} per rad in the upper rows, rad per rad in the lower ones"] if robot.is_revolute.any() else []
+    kinds = (
+        [tr("{unit} per rad in the upper rows, rad per rad in the lower ones", unit=unit)]
+        if robot.is_revolute.any()
+        else []
+    )
     if not robot.is_revolute.all():
-        kinds.append(f"sliding joints: {unit} per {unit}")
+        kinds.append(tr("sliding joints: {unit} per {unit}", unit=unit))
     return f"{'; '.join(kinds)}.".capitalize() if not robot.is_revolute.any() else f"{'; '.join(kinds)}."
 
 
@@ -116,8 +127,12 @@ def check_line(difference: float, rows: Rows) -> str:
     """How far the formulas are from differences of the forward kinematics [m, rad]."""
     if np.isnan(difference):
         return ""
-    what = "the angles of the forward kinematics" if rows in _LOCKED else "the forward kinematics"
-    return f"Checked by differences of {what}: largest difference {format_error(difference)}."
+    what = tr("the angles of the forward kinematics") if rows in _LOCKED else tr("the forward kinematics")
+    return tr(
+        "Checked by differences of {what}: largest difference {format_error}.",
+        what=what,
+        format_error=format_error(difference),
+    )
 
 
 def format_error(value: float) -> str:
@@ -172,7 +187,11 @@ def whole_equations(
 def column_title(robot: Robot, joint: int) -> str:
     """Above the identity."""
     name = robot.joint_names[joint]
-    return f"Column J{joint + 1}" if name == f"J{joint + 1}" else f"Column J{joint + 1}, {name}"
+    return (
+        tr("Column J{joint}", joint=joint + 1)
+        if name == f"J{joint + 1}"
+        else tr("Column J{joint}, {name}", joint=joint + 1, name=name)
+    )
 
 
 def column_note(robot: Robot, joint: int, kind: Rows, preferences: Preferences) -> str:
@@ -180,11 +199,16 @@ def column_note(robot: Robot, joint: int, kind: Rows, preferences: Preferences) 
     frame, unit = frame_of_joint(robot, joint), length_factor(robot, preferences)[1]
     axes = "tool" if kind == "tool" else "base"
     if not robot.joints[joint].revolute:
-        return f"z{_sub(frame)}: the way of the sliding joint. It moves the tool along, and does not turn it."
-    rates = " B⁻¹ turns ω into the rates of the angles." if kind in ("rpy", "zyz") else ""
-    return (
-        f"z{_sub(frame)}: the joint's axis; o{_sub(frame)}: a point on it; p: the tool. Lengths in {unit}, {axes} "
-        f"axes.{rates}"
+        return tr(
+            "z{sub}: the way of the sliding joint. It moves the tool along, and does not turn it.", sub=_sub(frame)
+        )
+    rates = tr(" B⁻¹ turns ω into the rates of the angles.") if kind in ("rpy", "zyz") else ""
+    return tr(
+        "z{sub}: the joint's axis; o{sub}: a point on it; p: the tool. Lengths in {unit}, {axes} axes.{rates}",
+        sub=_sub(frame),
+        unit=unit,
+        axes=axes,
+        rates=rates,
     )
 
 

@@ -50,26 +50,27 @@ from rvsim.kinematics import (
 )
 from rvsim.kinematics.inverse.families import closed_form
 from rvsim.kinematics.inverse.spherical_wrist import SphericalWrist
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.edits import original_name
 
 _THRESHOLD = 0.01
-_THRESHOLD_TIP = (
+_THRESHOLD_TIP = tr_later(
     "Below this σ min / σ max the light says “close”. The ratio, and not σ min itself, because it does not grow with "
     "the arm: of all poses of a six-axis arm some one in eight is below 0.01."
 )
 _LEFT, _RIGHT = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight
 _PARTS = {"linear": "moving (v)", "angular": "turning (ω)"}
-_NO_FAMILY = "This arm has no singularity of its task: J keeps its rank everywhere."
-_PLACE_ONLY = "Of its pose this arm has none: J keeps its rank everywhere. Its place alone can be singular:"
-_UNKNOWN = "No family is known for the shape of this arm; the numbers above hold all the same."
+_NO_FAMILY = tr_later("This arm has no singularity of its task: J keeps its rank everywhere.")
+_PLACE_ONLY = tr_later("Of its pose this arm has none: J keeps its rank everywhere. Its place alone can be singular:")
+_UNKNOWN = tr_later("No family is known for the shape of this arm; the numbers above hold all the same.")
 
 
 class SingularPage(InspectPage):
     """Judges the present pose."""
 
-    title = "Singular"
+    title = tr_later("Singular")
     name = "inspect_singular"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
@@ -89,7 +90,7 @@ class SingularPage(InspectPage):
         self.reason, self.lost = wrapped_label("muted"), wrapped_label()
         self.lost.setObjectName("singular_lost")
         set_role(self.lost, level="error")
-        self.threshold = QuantityBox("number", self._preferences, "Close below this σ min / σ max")
+        self.threshold = QuantityBox("number", self._preferences, tr("Close below this σ min / σ max"))
         self.threshold.setObjectName("singular_threshold")
         self.threshold.setToolTip(_THRESHOLD_TIP)
         self.threshold.set_range(0.0, 1.0)
@@ -99,11 +100,11 @@ class SingularPage(InspectPage):
         self.cells = [(QLabel(), QLabel()) for _ in MEASURES]
 
     def _make_ellipsoids(self) -> None:
-        self.velocity, self.force = QCheckBox("Velocity"), QCheckBox("Force")
-        self.parts = combo("singular_part", "Which rows of J the ellipsoid shows", _PARTS)
+        self.velocity, self.force = QCheckBox(tr("Velocity")), QCheckBox(tr("Force"))
+        self.parts = combo("singular_part", tr("Which rows of J the ellipsoid shows"), _PARTS)
         for box, name, tip in (
-            (self.velocity, "velocity", "Draw how fast the tool can move in each direction"),
-            (self.force, "force", "Draw how hard the tool can push in each direction: hard where it moves badly"),
+            (self.velocity, "velocity", tr("Draw how fast the tool can move in each direction")),
+            (self.force, "force", tr("Draw how hard the tool can push in each direction: hard where it moves badly")),
         ):
             box.setObjectName(f"singular_{name}")
             box.setToolTip(tip)
@@ -126,8 +127,8 @@ class SingularPage(InspectPage):
         self._column.addWidget(self.bars)
         self._column.addWidget(self.bars_note)
         self._column.addLayout(self._threshold_row())
-        self._add_section("Ellipsoids at the tool", self._ellipsoid_row(), self.scale)
-        self._add_section("Singularities of this arm", self.families)
+        self._add_section(tr("Ellipsoids at the tool"), self._ellipsoid_row(), self.scale)
+        self._add_section(tr("Singularities of this arm"), self.families)
         self._column.addSpacing(12)
         self._place = QVBoxLayout()
         self._column.addLayout(self._place)
@@ -160,7 +161,7 @@ class SingularPage(InspectPage):
 
     def _threshold_row(self) -> QHBoxLayout:
         row, label = QHBoxLayout(), wrapped_label("muted")
-        label.setText("Close below σ min / σ max =")
+        label.setText(tr("Close below σ min / σ max ="))
         label.setToolTip(_THRESHOLD_TIP)
         self.threshold.setMaximumWidth(90)
         row.addWidget(label, 1)
@@ -263,7 +264,7 @@ class SingularPage(InspectPage):
         if q is None:
             session.warn(problem)
             return
-        self._go(q, f"Go to the {family.title}")
+        self._go(q, tr("Go to the {title}", title=family.title))
 
     def _go(self, q: FloatArray, text: str) -> None:
         self._session.move_to(q, text)

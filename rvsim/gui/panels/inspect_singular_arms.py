@@ -16,6 +16,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
 from rvsim.lab.singular_sources import MINORS, Barrier, barriers, minors, position_jacobian, wrist_split
 from rvsim.lab.worked import Equation
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.edits import original_name
@@ -59,20 +60,26 @@ class SourceBlock(ArmBlock):
 
     def __init__(self, typesetter: Typesetter) -> None:
         super().__init__(
-            "What source 000 says",
-            "It looks at the tip's place alone: Ĵ, (26) and (27), of joints 1 to 4, in its decimetres. Its θ₁ turns "
-            "the other way round; all other entries are right. Below, its three minors, (28), worked out.",
+            tr("What source 000 says"),
+            tr(
+                "It looks at the tip's place alone: Ĵ, (26) and (27), of joints 1 to 4, in its decimetres. Its θ₁ "
+                "turns "
+                "the other way round; all other entries are right. Below, its three minors, (28), worked out."
+            ),
         )
         self._robot: Robot | None = None
         self._q: FloatArray = np.zeros(5)
-        self.grid = NumberGrid("Position Jacobian of source 000")
+        self.grid = NumberGrid(tr("Position Jacobian of source 000"))
         self.grid.setObjectName("singular_source_jacobian")
         self.minors = _Values(MINOR_FORMULAS, "singular_minor", typesetter)
         self.note = wrapped_label("muted")
         self.note.setText(
-            "All vanish where sin θ₃ = 0 and sin θ₄ = 0, its (29) and (30): right. They vanish at r = 0 too, the tip "
-            "on the base axis: it forgets that. The poses that its procedure "
-            "finds, with θ₄ as the joint has it, 90° less than there:"
+            tr(
+                "All vanish where sin θ₃ = 0 and sin θ₄ = 0, its (29) and (30): right. They vanish at r = 0 too, the "
+                "tip "
+                "on the base axis: it forgets that. The poses that its procedure "
+                "finds, with θ₄ as the joint has it, 90° less than there:"
+            )
         )
         self.list = QVBoxLayout()
         self.list.setSpacing(10)
@@ -107,7 +114,7 @@ class SourceBlock(ArmBlock):
         """Joints 1 and 5 stay as they are now."""
         q = np.array(barrier.q)
         q[[0, 4]] = self._q[[0, 4]]
-        self.go.emit(q, f"Go to {barrier.title}")
+        self.go.emit(q, tr("Go to {title}", title=barrier.title))
 
 
 class BarrierRow(QWidget):
@@ -125,7 +132,7 @@ class BarrierRow(QWidget):
         self.go = button(
             f"singular_barrier_{number}",
             f"{printed}{barrier.title}",
-            "Go to this pose",
+            tr("Go to this pose"),
             lambda: self.asked.emit(barrier),
         )
         column = QVBoxLayout(self)
@@ -140,9 +147,12 @@ class WristBlock(ArmBlock):
 
     def __init__(self, typesetter: Typesetter) -> None:
         super().__init__(
-            "Arm and wrist apart",
-            "Seen at the wrist centre, where axes 4, 5 and 6 meet, the wrist moves nothing: J has a block of zeros, "
-            "and its determinant is a product (source 004, §4.2.1).",
+            tr("Arm and wrist apart"),
+            tr(
+                "Seen at the wrist centre, where axes 4, 5 and 6 meet, the wrist moves nothing: J has a block of "
+                "zeros, "
+                "and its determinant is a product (source 004, §4.2.1)."
+            ),
         )
         self.values = _Values(SPLIT_FORMULAS, "singular_split", typesetter)
         self.factors = EquationsView(typesetter)
@@ -162,20 +172,23 @@ class PlanarBlock(ArmBlock):
 
     def __init__(self) -> None:
         super().__init__(
-            "Figure 4.1 of source 004",
-            "Stretched out, the planar arm stands at the boundary of its reach: its tip moves only square to the arm. "
-            "The velocity ellipse shows how this comes about.",
+            tr("Figure 4.1 of source 004"),
+            tr(
+                "Stretched out, the planar arm stands at the boundary of its reach: its tip moves only square to the "
+                "arm. "
+                "The velocity ellipse shows how this comes about."
+            ),
         )
         self.stretch = button(
             "singular_figure",
-            "Show figure 4.1",
-            "Stretch the arm, q₂ = 0, and draw the ellipses",
+            tr("Show figure 4.1"),
+            tr("Stretch the arm, q₂ = 0, and draw the ellipses"),
             self._show_figure,
         )
-        self.ellipses = QCheckBox("Ellipses along the bend of the elbow")
+        self.ellipses = QCheckBox(tr("Ellipses along the bend of the elbow"))
         self.ellipses.setObjectName("singular_ellipses")
         self.ellipses.setToolTip(
-            "Draw the velocity ellipse, at half its size, at every 30° of joint 2, with joint 1 as it is"
+            tr("Draw the velocity ellipse, at half its size, at every 30° of joint 2, with joint 1 as it is")
         )
         self.ellipses.toggled.connect(lambda _: self.changed.emit())
         self._stretched: FloatArray = np.zeros(2)
@@ -184,7 +197,7 @@ class PlanarBlock(ArmBlock):
 
     def _show_figure(self) -> None:
         self.ellipses.setChecked(True)
-        self.go.emit(self._stretched, "Stretch")
+        self.go.emit(self._stretched, tr("Stretch"))
 
     def show_pose(self, robot: Robot, q: FloatArray) -> None:
         """The stretched arm has joint 1 as it is."""

@@ -13,6 +13,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import ElidedLabel, button
 from rvsim.kinematics import SingularFamily
 from rvsim.lab.worked import Equation
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -28,7 +29,7 @@ class FamilyRow(QWidget):
     def __init__(self, family: SingularFamily, typesetter: Typesetter) -> None:
         super().__init__()
         self.family = family
-        part = ", place only" if family.part == "position" else ""
+        part = tr(", place only") if family.part == "position" else ""
         slug = family.name.replace(" ", "_")
         self.name, self.state, self.value = ElidedLabel(), QLabel(), ElidedLabel()
         self.name.setText(f"{family.name.capitalize()}  ({family.kind}{part})")
@@ -42,8 +43,8 @@ class FamilyRow(QWidget):
         self.problem.hide()
         self.go = button(
             f"singular_go_{slug}",
-            "Take me there",
-            f"Go to a near pose of this family. {family.sentence}",
+            tr("Take me there"),
+            tr("Go to a near pose of this family. {sentence}", sentence=family.sentence),
             self.asked.emit,
         )
         self._lay_out()

@@ -13,6 +13,7 @@ from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_singular_words import CLEAR, Light, small_number
 from rvsim.gui.theme import THEMES, number_font, set_role
 from rvsim.gui.widgets import PaintedLines
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 
 _DECADES = 4.0  # the bars reach from σ max down to a ten thousandth of it
@@ -54,10 +55,12 @@ class SigmaBars(PaintedLines):
         self._threshold = 0.0
         self._level = "good"
         self.setObjectName("singular_bars")
-        self.setAccessibleName("Singular values")
+        self.setAccessibleName(tr("Singular values"))
         self.setToolTip(
-            "All singular values of J, the largest on top, on a logarithmic scale of four decades. The line marks "
-            "where the light turns: the lowest bar should reach beyond it."
+            tr(
+                "All singular values of J, the largest on top, on a logarithmic scale of four decades. The line marks "
+                "where the light turns: the lowest bar should reach beyond it."
+            )
         )
 
     def show_values(self, values: FloatArray, threshold: float, level: str) -> None:

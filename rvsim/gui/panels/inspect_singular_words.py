@@ -10,6 +10,7 @@ import numpy as np
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, format_quantity, joint_kind, length_kind
 from rvsim.kinematics import LostMotion, Measures, SingularFamily, Singularity, SingularPose
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -26,29 +27,34 @@ class Light(NamedTuple):
     word: str
 
 
-CLEAR = Light("good", "●", "Clear of singularities")
-CLOSE = Light("warning", "▲", "Close to a singularity")
-PLACE_SINGULAR = Light("warning", "▲", "The place alone is singular")
-SINGULAR = Light("error", "✖", "Singular")
+CLEAR = Light("good", "●", tr_later("Clear of singularities"))
+CLOSE = Light("warning", "▲", tr_later("Close to a singularity"))
+PLACE_SINGULAR = Light("warning", "▲", tr_later("The place alone is singular"))
+SINGULAR = Light("error", "✖", tr_later("Singular"))
 
-PLACE = "Place (v)", "The upper three rows of J alone: moving the tool, whatever it turns."
-ALL_ROWS = "All of J", "All six rows of J, those that this arm's own task does not ask for too."
+PLACE = tr_later("Place (v)"), tr_later("The upper three rows of J alone: moving the tool, whatever it turns.")
+ALL_ROWS = tr_later("All of J"), tr_later("All six rows of J, those that this arm's own task does not ask for too.")
 TASK_TITLES = {
-    6: ("Tool (v, ω)", "All six rows of J: moving the tool and turning it at once."),
+    6: (tr_later("Tool (v, ω)"), tr_later("All six rows of J: moving the tool and turning it at once.")),
     3: PLACE,
-    4: ("Place, yaw", "The rows of J that this arm's task asks for: moving, and turning about z."),
-    2: ("x, y", "The rows of J that this arm's task asks for: moving in the plane."),
+    4: (tr_later("Place, yaw"), tr_later("The rows of J that this arm's task asks for: moving, and turning about z.")),
+    2: ("x, y", tr_later("The rows of J that this arm's task asks for: moving in the plane.")),
 }
 MEASURES: tuple[tuple[str, str], ...] = (
-    ("σ min", "The smallest singular value of J: how fast the tool moves in its worst direction for joint speeds of "
-     "length 1. Metres and radians are mixed in it: compare poses of one arm with it, not arms."),
-    ("σ min / σ max", "One over the condition: 0 at a singularity, 1 where all directions are alike. The light looks "
-     "at it, because it does not grow with the arm."),
-    ("Condition", "σ max / σ min: how unlike the best and the worst direction are, and how much small errors of the "
-     "tool grow in the joints."),
-    ("Manipulability", "The product of all σ, √det(J Jᵀ) or √det(Jᵀ J), after Yoshikawa: the volume of the velocity "
-     "ellipsoid, but for a factor."),
-    ("Rank", "How many directions the tool can move in at once: singular values above 1e-6, of those there could be."),
+    ("σ min", tr_later("The smallest singular value of J: how fast the tool moves in its worst direction for joint "
+                       "speeds of "
+     "length 1. Metres and radians are mixed in it: compare poses of one arm with it, not arms.")),
+    ("σ min / σ max", tr_later("One over the condition: 0 at a singularity, 1 where all directions are alike. The "
+                               "light looks "
+     "at it, because it does not grow with the arm.")),
+    (tr_later("Condition"), tr_later("σ max / σ min: how unlike the best and the worst direction are, and how much "
+                                     "small errors of the "
+     "tool grow in the joints.")),
+    (tr_later("Manipulability"), tr_later("The product of all σ, √det(J Jᵀ) or √det(Jᵀ J), after Yoshikawa: the "
+                                          "volume of the velocity "
+     "ellipsoid, but for a factor.")),
+    (tr_later("Rank"), tr_later("How many directions the tool can move in at once: singular values above 1e-6, of "
+                                "those there could be.")),
 )  # fmt: skip
 
 
@@ -79,11 +85,13 @@ def small_number(value: float) -> str:
 def bars_sentence(robot: Robot, rows: int) -> str:
     """The scale of the bars and the unit of what they show."""
     length = "m" if robot.length_unit == "millimetre" else "units"
-    tool = f"{length} and rad together" if rows in (4, 6) else length
-    joint = "rad" if robot.is_revolute.all() else "rad or length"
-    return (
-        f"σ in {tool} per {joint} of the joints. Logarithmic bars, from σ max down to a ten thousandth of it; "
-        "dashed: the threshold."
+    tool = tr("{length} and rad together", length=length) if rows in (4, 6) else length
+    joint = "rad" if robot.is_revolute.all() else tr("rad or length")
+    return tr(
+        "σ in {tool} per {joint} of the joints. Logarithmic bars, from σ max down to a ten thousandth of it; "
+        "dashed: the threshold.",
+        tool=tool,
+        joint=joint,
     )
 
 
@@ -101,7 +109,12 @@ def verdict_sentence(found: Singularity) -> str:
     """The active families in words, or "" where there is none."""
     sentences = [f"{family.name.capitalize()} ({family.kind}): {family.sentence}" for family in found.families]
     sentences += [
-        f"{family.name.capitalize()} ({family.kind}): {family.sentence} Turning the tool is as free as ever."
+        tr(
+            "{capitalize} ({kind}): {sentence} Turning the tool is as free as ever.",
+            capitalize=family.name.capitalize(),
+            kind=family.kind,
+            sentence=family.sentence,
+        )
         for family in found.position_families
         if not found.families
     ]
@@ -115,18 +128,18 @@ def lost_sentence(motions: tuple[LostMotion, ...], found: Measures, robot: Robot
     """What the tool cannot do here, one line a motion."""
     lines = [_motion(motion, robot, preferences) for motion in motions]
     if sum(not motion.alone for motion in motions) > found.full_rank - found.rank:
-        lines.append(f"With {robot.dof} joints one of these is always missing.")
+        lines.append(tr("With {dof} joints one of these is always missing.", dof=robot.dof))
     return "\n".join(lines)
 
 
 def _motion(motion: LostMotion, robot: Robot, preferences: Preferences) -> str:
     way = direction_text(motion.direction)
     if motion.kind == "turn":
-        return f"Cannot turn about {way}{' with the tip at rest' if motion.alone else ''}."
+        return tr("Cannot turn about {way}{value}.", way=way, value=tr(" with the tip at rest") if motion.alone else "")
     away = float(np.linalg.norm(motion.offset))
     distance = format_quantity(away, length_kind(robot), preferences)
-    line = "" if away < 1e-4 * robot.size else f" on the dashed line, {distance} beside the tip"
-    return f"Cannot move along {way}{' without turning' if motion.alone else line}."
+    line = "" if away < 1e-4 * robot.size else tr(" on the dashed line, {distance} beside the tip", distance=distance)
+    return tr("Cannot move along {way}{value}.", way=way, value=tr(" without turning") if motion.alone else line)
 
 
 def direction_text(direction: FloatArray) -> str:
@@ -152,7 +165,7 @@ def value_text(family: SingularFamily, q: FloatArray, robot: Robot, preferences:
         format_quantity(float(value), kind, preferences) if kind != "number" else small_number(float(value))
         for value, kind in zip(family.values(q), kinds, strict=True)
     ]
-    return f"now {' and '.join(shown)}"
+    return tr("now {shown}", shown=" and ".join(shown))
 
 
 def refusal(robot: Robot, way: SingularPose, preferences: Preferences) -> str:
@@ -165,8 +178,16 @@ def refusal(robot: Robot, way: SingularPose, preferences: Preferences) -> str:
         needs, low, high = (
             format_quantity(float(value), kind, preferences) for value in (way.outside[i], lower, upper)
         )
-        parts.append(f"{robot.joint_names[i]} would need {needs}, but has {low} to {high}")
-    return f"Outside the limits: {'; '.join(parts)}."
+        parts.append(
+            tr(
+                "{joint_names} would need {needs}, but has {low} to {high}",
+                joint_names=robot.joint_names[i],
+                needs=needs,
+                low=low,
+                high=high,
+            )
+        )
+    return tr("Outside the limits: {parts}.", parts="; ".join(parts))
 
 
 # --- ellipsoids --------------------------------------------------------------------------------------------------
@@ -204,14 +225,23 @@ def scale_sentence(robot: Robot, part: str, kinds: tuple[str, ...], preferences:
     lines = []
     turning = bool(robot.is_revolute.all())
     together = {
-        "velocity": f"joint speeds of norm 1{' rad/s' if turning else ''}",
-        "force": f"joint torques of norm 1{' N m' if turning else ''}",
+        "velocity": tr("joint speeds of norm 1{value}", value=" rad/s" if turning else ""),
+        "force": tr("joint torques of norm 1{value}", value=" N m" if turning else ""),
     }
     for kind in kinds:
         factor, longest, unit = ellipsoid_scale(robot, part, kind)
         drawn, cut = (_drawn(robot, value, preferences) for value in (factor, longest))
-        end = f", cut at {cut}" if kind == "force" else ""
-        lines.append(f"{kind.capitalize()} for {together[kind]}: 1 {unit} is drawn as {drawn}{end}.")
+        end = tr(", cut at {cut}", cut=cut) if kind == "force" else ""
+        lines.append(
+            tr(
+                "{capitalize} for {together}: 1 {unit} is drawn as {drawn}{end}.",
+                capitalize=kind.capitalize(),
+                together=together[kind],
+                unit=unit,
+                drawn=drawn,
+                end=end,
+            )
+        )
     return "\n".join(lines)
 
 

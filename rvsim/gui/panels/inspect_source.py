@@ -34,35 +34,36 @@ from rvsim.gui.widgets import button, column_of, combo, scrolled
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.sources import Comparison, Erratum, Topic, errata, topics
 from rvsim.lab.worked import Equation
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.spatial import rotation_error_angle
 
 _SEEN_ROWS, _FEW_ROWS = 6, 4  # of the list, before it scrolls; where the page is low
 _LOW = 560  # [px]
-_LIST_LOOK = """
+_LIST_LOOK = tr_later("""
 QListWidget { border: 1px solid palette(mid); border-radius: 5px; background: palette(base); }
 QListWidget::item { padding: 2px 4px; }
-"""
+""")
 _ALL = ""
-_POSE_TIP = "Go to the pose at which this shows, as in the text; undo brings the present one back"
-_THERE_TIP = "The arm is at the pose of the text already"
+_POSE_TIP = tr_later("Go to the pose at which this shows, as in the text; undo brings the present one back")
+_THERE_TIP = tr_later("The arm is at the pose of the text already")
 
 
 class SourcePage(InspectPage):
     """Shows one erratum at the present pose, chosen from the list of the arm's."""
 
-    title = "Sources"
+    title = tr_later("Sources")
     name = "inspect_source"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
         super().__init__(session, preferences, stage, parent)
         self._robot: Robot | None = None
         self._entries: tuple[Erratum, ...] = ()
-        self.topics = combo("source_topics", "Topic of the errata")
+        self.topics = combo("source_topics", tr("Topic of the errata"))
         self.topics.currentIndexChanged.connect(lambda _: self._offer_entries())
         self.list = QListWidget()
         self.list.setObjectName("source_errata")
-        self.list.setAccessibleName("What the sources print wrongly")
+        self.list.setAccessibleName(tr("What the sources print wrongly"))
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setStyleSheet(_LIST_LOOK)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
@@ -144,7 +145,7 @@ class SourcePage(InspectPage):
         with QSignalBlocker(self.topics):
             kept = self.topics.currentData()
             self.topics.clear()
-            self.topics.addItem(f"All {len(self._entries)} errata", _ALL)
+            self.topics.addItem(tr("All {count} errata", count=len(self._entries)), _ALL)
             for topic in topics(robot):
                 self.topics.addItem(TOPIC_TITLES[topic], topic)
             self.topics.setCurrentIndex(max(self.topics.findData(kept), 0))
@@ -210,26 +211,26 @@ class ErratumView(QWidget):
         typesetter = Typesetter(self)
         self.heading, self.why = wrapped_label("title"), wrapped_label()
         self.printed, self.right = EquationsView(typesetter), EquationsView(typesetter)
-        self.right_head = _small("Right")
+        self.right_head = _small(tr("Right"))
         self.verdict, self.units, self.drawn = wrapped_label(), wrapped_label("muted"), wrapped_label("muted")
         for label, part in ((self.heading, "heading"), (self.why, "why"), (self.verdict, "verdict"),
                             (self.drawn, "drawn")):  # fmt: skip
             label.setObjectName(f"source_{part}")
         self.grids = tuple(Grid(f"source_grid_{index}") for index in range(3))
         self.titles = tuple(_small("") for _ in self.grids)
-        self.to_pose = button("source_pose", "Pose of the text", _POSE_TIP, self._go)
+        self.to_pose = button("source_pose", tr("Pose of the text"), _POSE_TIP, self._go)
         self._lay_out()
 
     def _lay_out(self) -> None:
         here = QHBoxLayout()
-        self.here = QLabel("At this pose")
+        self.here = QLabel(tr("At this pose"))
         set_role(self.here, role="title")
         here.addWidget(self.here, 1)
         here.addWidget(self.to_pose)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
-        for widget in (self.heading, _small("Printed"), self.printed, self.right_head, self.right, self.why):
+        for widget in (self.heading, _small(tr("Printed")), self.printed, self.right_head, self.right, self.why):
             column.addWidget(widget)
         column.addLayout(here)
         column.addWidget(self.verdict)
@@ -246,7 +247,7 @@ class ErratumView(QWidget):
         there = bool(np.allclose(self._session.q, entry.pose, atol=1e-9))
         self.to_pose.setEnabled(not there)
         self.to_pose.setToolTip(_THERE_TIP if there else _POSE_TIP)
-        self.here.setText("At the pose of the text" if there else "At this pose")
+        self.here.setText(tr("At the pose of the text") if there else tr("At this pose"))
         self.to_pose.setVisible(comparison is not None)
         self.here.setVisible(comparison is not None)
         if comparison is None:
@@ -299,7 +300,7 @@ class ErratumView(QWidget):
 
     def _go(self) -> None:
         if self._entry is not None:
-            self._session.move_to(self._entry.pose, f"Pose of {heading(self._entry).lower()}")
+            self._session.move_to(self._entry.pose, tr("Pose of {lower}", lower=heading(self._entry).lower()))
 
 
 def _small(text: str) -> QLabel:

@@ -12,17 +12,18 @@ from numpy.typing import NDArray
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, Kind, display, format_number, format_scientific, length_kind
 from rvsim.lab.sources import Comparison, Erratum, Topic
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 TOPIC_TITLES: dict[Topic, str] = {
-    "frames": "Frames and forward kinematics",
-    "inverse": "Inverse kinematics",
-    "jacobian": "Jacobian",
-    "singularity": "Singularities",
-    "path": "Paths and programs",
-    "dynamics": "Forces",
-    "time law": "Time law",
+    "frames": tr_later("Frames and forward kinematics"),
+    "inverse": tr_later("Inverse kinematics"),
+    "jacobian": tr_later("Jacobian"),
+    "singularity": tr_later("Singularities"),
+    "path": tr_later("Paths and programs"),
+    "dynamics": tr_later("Forces"),
+    "time law": tr_later("Time law"),
 }
 _KINDS: dict[str, Kind] = {
     "number": "number",
@@ -34,11 +35,11 @@ _KINDS: dict[str, Kind] = {
 }
 _NONE = "–"  # in the place of a number that does not exist
 _TINY = 5e-4  # a plain number below this is written with its power of ten
-_SAYS_NOTHING = (
+_SAYS_NOTHING = tr_later(
     "No formula of the sources about this arm is known to be wrong. The arms with errata are the RV-M1, the RV-1A, the "
     "UR5e, the RRRP arm and the AL5B."
 )
-REMARK = "A remark: there is no formula to work out."
+REMARK = tr_later("A remark: there is no formula to work out.")
 
 
 class Sheet(NamedTuple):
@@ -67,7 +68,7 @@ def nothing_known(robot: Robot) -> str:
 
 def heading(entry: Erratum) -> str:
     """Where it is in which source."""
-    return f"Source {entry.source}, {entry.where}"
+    return tr("Source {source}, {where}", source=entry.source, where=entry.where)
 
 
 def shown_as(robot: Robot, preferences: Preferences, *, fewer: int = 0) -> Shown:
@@ -103,7 +104,7 @@ def _columns(entry: Erratum, comparison: Comparison, shown: Shown) -> Sheets:
         for *row, kind in zip(printed, right, gap, kinds, strict=True)
     )
     marks = np.column_stack([wrong, np.zeros_like(wrong), wrong])
-    return Sheets((("", Sheet(("printed", "ours", "off by"), heads, cells, marks)),), "")
+    return Sheets((("", Sheet(("printed", "ours", tr("off by")), heads, cells, marks)),), "")
 
 
 def _head(name: str, unit: str) -> str:
@@ -114,9 +115,9 @@ def _matrices(entry: Erratum, comparison: Comparison, shown: Shown) -> Sheets:
     wrong = comparison.differs
     right = np.zeros_like(wrong)
     made = (
-        ("Printed", _sheet(entry, comparison.printed, comparison.kinds, shown, wrong)),
-        ("Ours", _sheet(entry, comparison.right, comparison.kinds, shown, right)),
-        ("Difference", _sheet(entry, np.where(wrong, comparison.difference, 0.0), comparison.kinds, shown, wrong)),
+        (tr("Printed"), _sheet(entry, comparison.printed, comparison.kinds, shown, wrong)),
+        (tr("Ours"), _sheet(entry, comparison.right, comparison.kinds, shown, right)),
+        (tr("Difference"), _sheet(entry, np.where(wrong, comparison.difference, 0.0), comparison.kinds, shown, wrong)),
     )
     return Sheets(made, _unit_line(entry, comparison.kinds, shown))
 
@@ -146,10 +147,12 @@ def cell(value: float, kind: str, shown: Shown) -> str:
 
 def _unit_line(entry: Erratum, kinds: NDArray[np.str_], shown: Shown) -> str:
     if entry.quantity == "transform":
-        return f"The last column is in {unit('length', shown)}."
+        return tr("The last column is in {unit}.", unit=unit("length", shown))
     if "lever" in kinds:
         lever = unit("lever", shown)
-        return f"Rows x to z in {lever}, the others without a unit." if len(kinds) == 6 else f"In {lever}."
+        return (
+            tr("Rows x to z in {lever}, the others without a unit.", lever=lever) if len(kinds) == 6 else f"In {lever}."
+        )
     return ""
 
 
@@ -158,11 +161,16 @@ def verdict(entry: Erratum, comparison: Comparison, shown: Shown) -> tuple[str, 
     if np.isnan(comparison.printed).any():
         return entry.undefined, "error"
     if comparison.agree:
-        return "At this pose the printed formula happens to be right.", "good"
+        return tr("At this pose the printed formula happens to be right."), "good"
     if comparison.right.ndim < 2:
         return "", "error"
     wrong = int(comparison.differs.sum())
-    return f"{wrong} of {comparison.right.size} entries are wrong; {_worst(comparison, shown)}.", "error"
+    return tr(
+        "{wrong} of {size} entries are wrong; {worst}.",
+        wrong=wrong,
+        size=comparison.right.size,
+        worst=_worst(comparison, shown),
+    ), "error"
 
 
 def _worst(comparison: Comparison, shown: Shown) -> str:
@@ -171,12 +179,12 @@ def _worst(comparison: Comparison, shown: Shown) -> str:
     for kind in dict.fromkeys(comparison.kinds[comparison.differs].ravel()):
         gaps = np.abs(comparison.difference[comparison.kinds == kind])
         parts.append(f"{cell(float(gaps.max()), str(kind), shown)} {unit(str(kind), shown)}".strip())
-    return f"the largest difference is {' and '.join(parts)}"
+    return tr("the largest difference is {parts}", parts=" and ".join(parts))
 
 
 def drawn_sentence(distance: float, turned: float, shown: Shown) -> str:
     """How far from the arm's own tool the source puts it [m, rad]."""
-    away = f"{cell(distance, 'length', shown)} {unit('length', shown)} away"
-    about = f"turned by {cell(turned, 'angle', shown)}{shown('angle').suffix}"
+    away = tr("{cell} {unit} away", cell=cell(distance, "length", shown), unit=unit("length", shown))
+    about = tr("turned by {cell}{suffix}", cell=cell(turned, "angle", shown), suffix=shown("angle").suffix)
     where = " and ".join(part for part, there in ((away, distance > 1e-9), (about, turned > 1e-9)) if there)
-    return f"The dashed frame in the scene is where the source puts the tool: {where}."
+    return tr("The dashed frame in the scene is where the source puts the tool: {where}.", where=where)

@@ -6,6 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QPushButton, QWidget
 
 from rvsim.lab.sources import Topic, errata
+from rvsim.language import tr
 from rvsim.robot import Robot
 
 
@@ -23,7 +24,7 @@ class SourcesButton(QPushButton):
         self._topic: Topic = topic
         self._robot: Robot | None = None
         self.setObjectName(f"what_the_source_says_{topic}")
-        self.setToolTip("Go to the printed formulas that are not right, with their values here, ours, and why")
+        self.setToolTip(tr("Go to the printed formulas that are not right, with their values here, ours, and why"))
         self.setVisible(False)
         self.clicked.connect(lambda: self.asked.emit(self._topic))
 
@@ -34,4 +35,6 @@ class SourcesButton(QPushButton):
         self._robot = robot
         count = len(errata(robot, self._topic))
         self.setVisible(count > 0)
-        self.setText(f"What the source says: {count} {'erratum' if count == 1 else 'errata'}")
+        self.setText(
+            tr("What the source says: {count} {value}", count=count, value="erratum" if count == 1 else "errata")
+        )

@@ -28,6 +28,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import column_of, combo, scrolled
 from rvsim.kinematics import forward_kinematics, jacobian
 from rvsim.kinematics.rates import joint_rates
+from rvsim.language import tr, tr_later
 from rvsim.motion.jog import JogStep
 from rvsim.motion.jog_course import Axes
 from rvsim.robot.arrays import FloatArray
@@ -35,9 +36,9 @@ from rvsim.scene.velocity_arrows import velocity_items
 
 Mode = Literal["tool", "joints", "jog"]
 _MODES: dict[Mode, tuple[str, str]] = {
-    "tool": ("Tool → joints", "Type a velocity of the tool: which joint speeds make it?"),
-    "joints": ("Joints → tool", "Type joint speeds: how does the tool move?"),
-    "jog": ("Jog", "Hold a button or a key: the arm moves"),
+    "tool": (tr_later("Tool → joints"), tr_later("Type a velocity of the tool: which joint speeds make it?")),
+    "joints": (tr_later("Joints → tool"), tr_later("Type joint speeds: how does the tool move?")),
+    "jog": (tr_later("Jog"), tr_later("Hold a button or a key: the arm moves")),
 }
 _FIRST_WISH = 0.05  # [m/s] along z: the page has something to show at once
 
@@ -45,7 +46,7 @@ _FIRST_WISH = 0.05  # [m/s] along z: the page has something to show at once
 class VelocityPage(InspectPage):
     """Shows (v, ω) = J q̇ both ways round at the present pose."""
 
-    title = "Velocity"
+    title = tr_later("Velocity")
     name = "inspect_velocity"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
@@ -54,7 +55,9 @@ class VelocityPage(InspectPage):
         self._qd: FloatArray = np.zeros(0)  # as typed
         self._qd_now: FloatArray = np.zeros(0)  # as shown
         self._modes = QButtonGroup(self)
-        self.axes = combo("velocity_axes", "Axes of the tool's velocity", {"base": "Base axes", "tool": "Tool axes"})
+        self.axes = combo(
+            "velocity_axes", tr("Axes of the tool's velocity"), {"base": tr("Base axes"), "tool": tr("Tool axes")}
+        )
         self.axes.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
         self.twist = TwistBoxes("velocity", ("v", "ω"), preferences)
         self.twist.edited.connect(self._on_wish)
@@ -65,8 +68,8 @@ class VelocityPage(InspectPage):
         for label, part in ((self.verdict, "verdict"), (self.test, "rank_test"), (self.damping, "damping")):
             label.setObjectName(f"velocity_{part}")
         set_role(self.damping, level="warning")
-        self.verdict.setToolTip("Nearest: in least squares, with lengths counted in sizes of the arm.")
-        self.assumed.setText("* assumed: no source gives this top speed.")
+        self.verdict.setToolTip(tr("Nearest: in least squares, with lengths counted in sizes of the arm."))
+        self.assumed.setText(tr("* assumed: no source gives this top speed."))
         self.acceleration = AccelerationSection(session, preferences)
         self.pad = JogPad(session, preferences, lambda: self.frame)
         self.pad.moved.connect(self._on_jogged)

@@ -18,6 +18,7 @@ from rvsim.gui.theme import set_role
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.rates import joint_accelerations, tool_acceleration
 from rvsim.lab.worked import Equation
+from rvsim.language import tr
 from rvsim.motion.jog_course import Axes
 from rvsim.robot.arrays import FloatArray
 
@@ -35,7 +36,7 @@ class AccelerationSection(QWidget):
         self.title.setObjectName("acceleration_title")
         self.title.setText("▸ Accelerations")
         self.title.setCheckable(True)
-        self.title.setToolTip("Joint accelerations for a wished acceleration of the tool at these speeds")
+        self.title.setToolTip(tr("Joint accelerations for a wished acceleration of the tool at these speeds"))
         self.title.toggled.connect(self._open)
         self.twist = TwistBoxes("acceleration", ("a", "α"), preferences)
         self.twist.edited.connect(self._on_wish)
@@ -49,7 +50,7 @@ class AccelerationSection(QWidget):
         self.rows = JointRows(ACCELERATIONS, preferences)
         self.rows.set_editable(False)
         self.assumed = wrapped_label("muted")
-        self.assumed.setText("* assumed: no source gives this most.")
+        self.assumed.setText(tr("* assumed: no source gives this most."))
         self._inside = QWidget()
         column = QVBoxLayout(self._inside)
         column.setContentsMargins(0, 0, 0, 0)
@@ -64,7 +65,7 @@ class AccelerationSection(QWidget):
         self._inside.hide()
 
     def _open(self, opened: bool) -> None:
-        self.title.setText(f"{'▾' if opened else '▸'} Accelerations")
+        self.title.setText(tr("{value} Accelerations", value="▾" if opened else "▸"))
         self._inside.setVisible(opened)
         self._refresh()
 
@@ -103,7 +104,7 @@ class AccelerationSection(QWidget):
             for part, unit in zip((drift[:3], drift[3:]), shown, strict=True)
         ]
         units = " and".join(unit.suffix for unit in shown)
-        self.drift_words.setText(f"What the speeds alone make, in{units}; the joints make up for it.")
+        self.drift_words.setText(tr("What the speeds alone make, in{units}; the joints make up for it.", units=units))
         return (Equation("\\dot{J}\\,\\dot{q}", "", "", "\\quad ".join(halves)),)
 
     def _on_wish(self, index: int, value: float) -> None:

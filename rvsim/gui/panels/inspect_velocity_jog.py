@@ -27,6 +27,7 @@ from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.kinematics import forward_kinematics
+from rvsim.language import tr, tr_later
 from rvsim.motion.jog import Jog, JogStep
 from rvsim.motion.jog_course import Axes, JointMotion, ToolMotion
 from rvsim.robot import Robot
@@ -38,7 +39,7 @@ _SPEED, _TURN = 0.05, np.radians(20.0)
 _UNIT_SPEED = 0.2  # for arms whose lengths have no unit
 _AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 _IN_A_ROW = 3
-_KEYS_HELP = "← → along x, ↑ ↓ along y, Page Up, Page Down along z; with Shift they turn."
+_KEYS_HELP = tr_later("← → along x, ↑ ↓ along y, Page Up, Page Down along z; with Shift they turn.")
 
 
 class Direction(NamedTuple):
@@ -57,7 +58,7 @@ _KEYS = {
     Qt.Key.Key_PageDown: (2, -1),
 }
 _KEY_NAMES = {
-    (0, 1): "→", (0, -1): "←", (1, 1): "↑", (1, -1): "↓", (2, 1): "Page Up", (2, -1): "Page Down",
+    (0, 1): "→", (0, -1): "←", (1, 1): "↑", (1, -1): "↓", (2, 1): tr_later("Page Up"), (2, -1): tr_later("Page Down"),
 }  # fmt: skip
 
 
@@ -153,8 +154,8 @@ class JogPad(QWidget):
         self.driver.moved.connect(self._on_moved)
         self.held: Direction | None = None
         self.buttons: dict[Direction, QPushButton] = {}
-        self.speed = QuantityBox("length_speed", preferences, "Speed of the tool")
-        self.turn = QuantityBox("angle_speed", preferences, "Turning speed, of the tool and of joints")
+        self.speed = QuantityBox("length_speed", preferences, tr("Speed of the tool"))
+        self.turn = QuantityBox("angle_speed", preferences, tr("Turning speed, of the tool and of joints"))
         for box, name, value in ((self.speed, "jog_speed", _SPEED), (self.turn, "jog_turn", _TURN)):
             box.setObjectName(name)
             box.set_quantity(value)
@@ -164,7 +165,7 @@ class JogPad(QWidget):
         self.status.setObjectName("jog_status")
         self._joints = QGridLayout()
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName("Jog pad: hold the arrow keys, Page Up and Page Down")
+        self.setAccessibleName(tr("Jog pad: hold the arrow keys, Page Up and Page Down"))
         self._lay_out()
         app = QApplication.instance()
         assert isinstance(app, QApplication)
@@ -172,7 +173,7 @@ class JogPad(QWidget):
 
     def _lay_out(self) -> None:
         speeds = QHBoxLayout()
-        for text, box in (("Speed", self.speed), ("turning", self.turn)):
+        for text, box in ((tr("Speed"), self.speed), ("turning", self.turn)):
             label = QLabel(text)
             label.setBuddy(box)
             set_role(label, role="muted")
@@ -205,7 +206,7 @@ class JogPad(QWidget):
             button = QPushButton(text)
             button.setObjectName(f"jog_{'minus' if sign < 0 else 'plus'}_{name.lower()}")
             button.setAccessibleName(f"{text}{name}")
-            button.setToolTip(f"Hold to move {text}{name}{tip}")
+            button.setToolTip(tr("Hold to move {text}{name}{tip}", text=text, name=name, tip=tip))
             button.setMinimumWidth(30)
             direction = Direction(what, sign)
             button.pressed.connect(lambda d=direction: self.hold(d))
@@ -218,7 +219,10 @@ class JogPad(QWidget):
     def _key_tip(place: int) -> tuple[str, str]:
         """The keys of an axis' two buttons."""
         shift = "Shift+" if place >= _IN_A_ROW else ""
-        minus, plus = (f" (key: {shift}{_KEY_NAMES[place % _IN_A_ROW, sign]})" for sign in (-1, 1))
+        minus, plus = (
+            tr(" (key: {shift}{key_names})", shift=shift, key_names=_KEY_NAMES[place % _IN_A_ROW, sign])
+            for sign in (-1, 1)
+        )
         return minus, plus
 
     # --- showing ---------------------------------------------------------------------------------------------------
@@ -276,15 +280,15 @@ class JogPad(QWidget):
         if isinstance(direction.what, int):
             joint = direction.what
             rate = self.turn.quantity if robot.joints[joint].revolute else self.speed.quantity
-            return JointMotion(joint, sign * rate), f"Jog {robot.joint_names[joint]}"
+            return JointMotion(joint, sign * rate), tr("Jog {joint_names}", joint_names=robot.joint_names[joint])
         place = _AXES.index(direction.what)
         unit = sign * np.eye(3)[place % _IN_A_ROW]
         axis = "xyz"[place % _IN_A_ROW]
         if place < _IN_A_ROW:
-            name, v, w = f"moving along {axis}", self.speed.quantity * unit, np.zeros(3)
+            name, v, w = tr("moving along {axis}", axis=axis), self.speed.quantity * unit, np.zeros(3)
         else:
-            name, v, w = f"turning about {axis}", np.zeros(3), self.turn.quantity * unit
-        return ToolMotion(v, w, self._axes(), name), f"Jog {direction.what}"
+            name, v, w = tr("turning about {axis}", axis=axis), np.zeros(3), self.turn.quantity * unit
+        return ToolMotion(v, w, self._axes(), name), tr("Jog {what}", what=direction.what)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """A key holds its direction; Escape stops."""

@@ -15,6 +15,7 @@ from rvsim.gui.quantities import Kind, display, format_number
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import THEMES
 from rvsim.gui.widgets import ElidedLabel
+from rvsim.language import tr
 from rvsim.robot import Datum, Joint, Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -162,7 +163,7 @@ class JointRows(QWidget):
     def _compared(self, value: float, top: Datum | None, kind: Kind) -> tuple[float, str, str]:
         """The share of the top value, in a few signs and in full."""
         if top is None:
-            return math.nan, "no top value known", "No source gives one."
+            return math.nan, tr("no top value known"), tr("No source gives one.")
         shown, share = display(kind, self._preferences), abs(value) / top.value
         percent = f"{100.0 * share:.0f} %" if 100.0 * share < _MOST_SHOWN else f"> {_MOST_SHOWN:.0f} %"
         most = format_number(top.value * shown.factor, 0 if shown.factor > 1.0 else 2)

@@ -15,6 +15,7 @@ from rvsim.kinematics import (
     singular_families,
     singularity,
 )
+from rvsim.language import tr
 from rvsim.motion.jog import JogStep
 from rvsim.motion.jog_course import Limit
 from rvsim.robot import Robot
@@ -33,15 +34,26 @@ def stop_text(robot: Robot, step: JogStep, preferences: Preferences) -> str:
         return step.stopped_reason
     family = min(families, key=lambda family: float(family.measure(step.q)))
     lost = _lost_words(robot, family, step.q)
-    there = f": there the tool cannot {lost}" if lost else ""
-    return f"Stopped before the {family.title}, {_where(robot, family, step.q, preferences)}{there}."
+    there = tr(": there the tool cannot {lost}", lost=lost) if lost else ""
+    return tr(
+        "Stopped before the {title}, {where}{there}.",
+        title=family.title,
+        where=_where(robot, family, step.q, preferences),
+        there=there,
+    )
 
 
 def _limit_text(robot: Robot, limit: Limit, value: float, preferences: Preferences) -> str:
     number = format_quantity(limit.value, joint_kind(robot, limit.joint), preferences)
     beyond = value < limit.value if limit.side == 0 else value > limit.value
     where = "beyond" if beyond and abs(value - limit.value) > _PROBE else "at"
-    return f"Stopped: the {robot.joint_names[limit.joint]} is {where} its {limit.side_name} limit, {number}."
+    return tr(
+        "Stopped: the {joint_names} is {where} its {side_name} limit, {number}.",
+        joint_names=robot.joint_names[limit.joint],
+        where=where,
+        side_name=limit.side_name,
+        number=number,
+    )
 
 
 def _where(robot: Robot, family: SingularFamily, q: FloatArray, preferences: Preferences) -> str:
@@ -67,5 +79,5 @@ def _lost_words(robot: Robot, family: SingularFamily, q: FloatArray) -> str:
 def _motion_words(motion: LostMotion) -> str:
     way = direction_text(motion.direction)
     if motion.kind == "move":
-        return f"move along {way}{' without turning' if motion.alone else ''}"
-    return f"turn about {way}{' in place' if motion.alone else ''}"
+        return tr("move along {way}{value}", way=way, value=tr(" without turning") if motion.alone else "")
+    return tr("turn about {way}{value}", way=way, value=tr(" in place") if motion.alone else "")

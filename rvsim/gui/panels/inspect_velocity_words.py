@@ -10,10 +10,11 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number
 from rvsim.kinematics import jacobian
 from rvsim.kinematics.rates import JointAccelerations, JointRates, row_scale
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-PARTS = tuple(f"{what} {axis}" for what in ("moving along", "turning about") for axis in "xyz")
+PARTS = tuple(f"{what} {axis}" for what in (tr_later("moving along"), tr_later("turning about")) for axis in "xyz")
 _SHARE = 0.2  # of what is lost: a part of the wish that has less to do with it is not named
 _ALL = 0.95
 _RANK_ABOVE = 1e-6
@@ -38,14 +39,22 @@ def verdict(
     """
     what = "velocity" if isinstance(solution, JointRates) else "acceleration"
     if solution.feasible:
-        return f"This arm can do that {what}: nothing is lost."
+        return tr("This arm can do that {what}: nothing is lost.", what=what)
     if in_range:
-        return f"This arm could do that {what} here, but its joints would have to race: below each box, what is left."
+        return tr(
+            "This arm could do that {what} here, but its joints would have to race: below each box, what is left.",
+            what=what,
+        )
     parts = culprits(robot, wished, lost)
     if not parts:
-        return f"This arm cannot do that {what} here."
+        return tr("This arm cannot do that {what} here.", what=what)
     verb = "is" if len(parts) == 1 else "are"
-    return f"This arm cannot do that {what} here: {_listed(parts)} {verb} lost. Below each box: the nearest it can."
+    return tr(
+        "This arm cannot do that {what} here: {listed} {verb} lost. Below each box: the nearest it can.",
+        what=what,
+        listed=_listed(parts),
+        verb=verb,
+    )
 
 
 def culprits(robot: Robot, wished: FloatArray, lost: FloatArray) -> list[str]:
@@ -57,7 +66,7 @@ def culprits(robot: Robot, wished: FloatArray, lost: FloatArray) -> list[str]:
     for index in np.argsort(-weights, kind="stable").tolist():
         if weights[index] > _SHARE * max(total, 1e-300):
             share = lost[index] / wished[index]
-            part = f"{100.0 * share:.0f} % of " if share > 0.005 else "a little of "
+            part = f"{100.0 * share:.0f} % of " if share > 0.005 else tr("a little of ")
             found.append((index, PARTS[index] if share > _ALL else part + PARTS[index]))
     return [text for _, text in sorted(found)]
 
@@ -76,9 +85,11 @@ class RankTest(NamedTuple):
     @property
     def text(self) -> str:
         """As the source prints it."""
-        sign, verdict = ("=", "in") if self.in_range else ("<", "not in")
-        ranks = f"rank J = {self.alone} {sign} rank [J | ζ] = {self.with_wish}"
-        return f"{ranks}: ζ is {verdict} the range of J (source 004, eq. 4.20)."
+        sign, verdict = ("=", "in") if self.in_range else ("<", tr("not in"))
+        ranks = tr(
+            "rank J = {alone} {sign} rank [J | ζ] = {with_wish}", alone=self.alone, sign=sign, with_wish=self.with_wish
+        )
+        return tr("{ranks}: ζ is {verdict} the range of J (source 004, eq. 4.20).", ranks=ranks, verdict=verdict)
 
 
 def rank_test(robot: Robot, q: FloatArray, wished: FloatArray) -> RankTest:
@@ -94,7 +105,7 @@ def damping_line(damping: float) -> str:
     """Said only where it is in use."""
     if not damping:
         return ""
-    return f"Damped, so near a singularity: λ = {damping:.2g}."
+    return tr("Damped, so near a singularity: λ = {damping:.2g}.", damping=damping)
 
 
 def too_fast(robot: Robot, qd: FloatArray) -> str:
@@ -104,7 +115,7 @@ def too_fast(robot: Robot, qd: FloatArray) -> str:
         for joint, rate in zip(robot.joints, np.abs(qd).tolist(), strict=True)
         if joint.max_speed and rate > joint.max_speed.value * (1.0 + 1e-9)
     ]
-    return f"Faster than its top speed: {_listed(names)}." if names else ""
+    return tr("Faster than its top speed: {listed}.", listed=_listed(names)) if names else ""
 
 
 def arrow_texts(twist: FloatArray, kinds: tuple[Kind, Kind], preferences: Preferences) -> tuple[str, str]:
@@ -119,4 +130,4 @@ def _amount(value: float, kind: Kind, preferences: Preferences) -> str:
 
 
 def _listed(parts: list[str]) -> str:
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
+    return parts[0] if len(parts) == 1 else tr("{parts} and {parts2}", parts=", ".join(parts[:-1]), parts2=parts[-1])

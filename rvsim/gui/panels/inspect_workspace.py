@@ -56,6 +56,7 @@ from rvsim.gui.stage import Stage
 from rvsim.gui.widgets import button, column_of, combo, scrolled, select, show_whole
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.workspace import SectionMap
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.cloud import cloud_items, section_items
 from rvsim.scene.primitives import Item
@@ -63,7 +64,7 @@ from rvsim.scene.primitives import Item
 if TYPE_CHECKING:
     from rvsim.gui.panels.inspect_workspace_map import ScaleBar, SectionPlot
 
-_POINT = "Point at the map for the place there; click to ask for it below."
+_POINT = tr_later("Point at the map for the place there; click to ask for it below.")
 _GAP = 6  # [pixels]
 _BESIDE = 0.02  # of the map's width: how far the tool may stand beside the plane of a section and still be in it
 
@@ -71,7 +72,7 @@ _BESIDE = 0.02  # of the map's width: how far the tool may stand beside the plan
 class WorkspacePage(InspectPage):
     """Choices, a button, the map; what was worked out last stays until something new is ready."""
 
-    title = "Workspace"
+    title = tr_later("Workspace")
     name = "inspect_workspace"
 
     def __init__(self, session: Session, preferences: Preferences, stage: Stage, parent: QWidget | None = None) -> None:
@@ -101,11 +102,11 @@ class WorkspacePage(InspectPage):
     # --- making ------------------------------------------------------------------------------------------------------
 
     def _make_choices(self) -> None:
-        self.orientations = combo("workspace_orientation", "The tool's orientation", ORIENTATIONS)
-        self.colors = combo("workspace_color", "What the colours mean", COLORS)
-        self.sections = combo("workspace_section", "Which section is shown", SECTIONS)
-        self.limits = combo("workspace_limits", "Joint limits", LIMITS)
-        self.poses = combo("workspace_poses", "How many poses are sampled")
+        self.orientations = combo("workspace_orientation", tr("The tool's orientation"), ORIENTATIONS)
+        self.colors = combo("workspace_color", tr("What the colours mean"), COLORS)
+        self.sections = combo("workspace_section", tr("Which section is shown"), SECTIONS)
+        self.limits = combo("workspace_limits", tr("Joint limits"), LIMITS)
+        self.poses = combo("workspace_poses", tr("How many poses are sampled"))
         for number, text in POSES.items():
             self.poses.addItem(text, number)
         select(self.poses, 1_000_000)
@@ -113,13 +114,15 @@ class WorkspacePage(InspectPage):
             box.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
         self.orientations.currentIndexChanged.connect(lambda _: self._offer())
         self.orientations.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
-        self.in_scene = QCheckBox("Show in scene")
+        self.in_scene = QCheckBox(tr("Show in scene"))
         self.in_scene.setObjectName("workspace_in_scene")
         self.in_scene.setChecked(True)
         self.in_scene.toggled.connect(lambda _: self._refresh_if_seen())
-        tip = "Work out where the tool can go, in the plane where the arm stands now"
-        self.sample = button("sample_workspace_button", "Sample", tip, self.start, primary=True)
-        self.cancel = button("cancel_workspace_button", "Cancel", "Give up; the map stays as it was", self.give_up)
+        tip = tr("Work out where the tool can go, in the plane where the arm stands now")
+        self.sample = button("sample_workspace_button", tr("Sample"), tip, self.start, primary=True)
+        self.cancel = button(
+            "cancel_workspace_button", tr("Cancel"), tr("Give up; the map stays as it was"), self.give_up
+        )
         self.progress = QProgressBar()
         self.progress.setObjectName("workspace_progress")
         self.progress.setRange(0, 1000)
@@ -128,12 +131,12 @@ class WorkspacePage(InspectPage):
         self.figure, self.place, self.state = (wrapped_label("muted") for _ in range(3))
         for label, part in ((self.figure, "figure"), (self.place, "place"), (self.state, "state")):
             label.setObjectName(f"workspace_{part}")
-        self.copy = CopyButton("workspace_copy", "the map", {"CSV": self._csv}, self._session)
+        self.copy = CopyButton("workspace_copy", tr("the map"), {"CSV": self._csv}, self._session)
         self.save_csv = button(
-            "save_workspace_csv_button", "Save CSV…", "Save the map's cells as a table", self._save_csv
+            "save_workspace_csv_button", tr("Save CSV…"), tr("Save the map's cells as a table"), self._save_csv
         )
         self.save_png = button(
-            "save_workspace_png_button", "Save picture…", "Save the map as a picture", self._save_png
+            "save_workspace_png_button", tr("Save picture…"), tr("Save the map as a picture"), self._save_png
         )
 
     def _lay_out(self) -> None:
@@ -196,7 +199,7 @@ class WorkspacePage(InspectPage):
         """Stop; what was shown before stays."""
         self.worker.cancel()
         self._show_busy(False)
-        self._session.say("Given up. The map is as it was before.")
+        self._session.say(tr("Given up. The map is as it was before."))
 
     def _on_part(self, part: float | Survey) -> None:
         if isinstance(part, Survey):
@@ -305,7 +308,7 @@ class WorkspacePage(InspectPage):
         bar.show_values(values)
         self._show_pointed(math.nan, math.nan)
         counted = self.colors.currentData() != "branches" or section.branches is not None
-        self.state.setText(done_sentence(survey) if counted else "Press Sample again to count the branches.")
+        self.state.setText(done_sentence(survey) if counted else tr("Press Sample again to count the branches."))
         self.place.setText(section_sentence(survey, kind, self._preferences))
 
     def _show_tool(self) -> None:
@@ -337,12 +340,18 @@ class WorkspacePage(InspectPage):
 
     def _save_csv(self) -> None:
         self._save(
-            "Save map as CSV", "csv", "Tables (*.csv)", lambda file: write_atomically(file, self._csv().encode())
+            tr("Save map as CSV"),
+            "csv",
+            tr("Tables (*.csv)"),
+            lambda file: write_atomically(file, self._csv().encode()),
         )
 
     def _save_png(self) -> None:
         self._save(
-            "Save map as picture", "png", "Pictures (*.png *.jpg)", lambda file: save_image(self.picture(), file)
+            tr("Save map as picture"),
+            "png",
+            tr("Pictures (*.png *.jpg)"),
+            lambda file: save_image(self.picture(), file),
         )
 
     def picture(self) -> QPixmap:
@@ -359,16 +368,21 @@ class WorkspacePage(InspectPage):
         return picture
 
     def _save(self, title: str, ending: str, kinds: str, write: Callable[[Path], object]) -> None:
-        start = Path.home() / f"{self._session.robot.name}-workspace-{self.sections.currentData()}.{ending}"
+        start = Path.home() / tr(
+            "{name}-workspace-{currentData}.{ending}",
+            name=self._session.robot.name,
+            currentData=self.sections.currentData(),
+            ending=ending,
+        )
         chosen, _ = QFileDialog.getSaveFileName(self, title, str(start), kinds)
         if not chosen:
             return
         try:
             write(Path(chosen))
         except (RvsimError, OSError) as problem:
-            self._session.say(f"Nothing was written. {problem}", "error")
+            self._session.say(tr("Nothing was written. {problem}", problem=problem), "error")
             return
-        self._session.say(f"Saved {chosen}.")
+        self._session.say(tr("Saved {chosen}.", chosen=chosen))
 
 
 def _enable(box: QComboBox, choice: str, why_not: str) -> None:

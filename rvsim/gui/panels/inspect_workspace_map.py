@@ -13,6 +13,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, format_number
 from rvsim.gui.theme import THEMES
 from rvsim.kinematics.workspace import SectionMap
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.cloud import scale_color
 
@@ -67,7 +68,7 @@ class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
         self._factor = 1.0
         self.setMouseTracking(True)
         self.setObjectName("workspace_map")
-        self.setAccessibleName("Section of the workspace")
+        self.setAccessibleName(tr("Section of the workspace"))
         self.setMouseEnabled(x=False, y=False)
         self.setMenuEnabled(False)
         self.hideButtons()

@@ -24,12 +24,15 @@ from rvsim.gui.target_solution import (
 from rvsim.gui.widgets import button
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.inverse import DEFAULT_ORDER
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_ASK = "This is where the tool is. Type another place, or click one in the map, to ask whether it can be reached."
-_IN_PLANE = "This arm moves in a plane, and the place lies outside of it."
-_OTHERWISE = (
+_ASK = tr_later(
+    "This is where the tool is. Type another place, or click one in the map, to ask whether it can be reached."
+)
+_IN_PLANE = tr_later("This arm moves in a plane, and the place lies outside of it.")
+_OTHERWISE = tr_later(
     "Yes, with the tool turned otherwise than now: no branch of the closed form is within the limits, but a search "
     "among its neighbours finds joint values that are."
 )
@@ -54,12 +57,12 @@ class PointQuery(QWidget):
         self._typed = False
         self._question: tuple[object, ...] = ()
         title = wrapped_label("title")
-        title.setText("Is a place in reach?")
-        self.place = NumberRow("workspace_point", ("x", "y", "z"), ("length",) * 3, preferences, "Place")
+        title.setText(tr("Is a place in reach?"))
+        self.place = NumberRow("workspace_point", ("x", "y", "z"), ("length",) * 3, preferences, tr("Place"))
         self.place.edited.connect(lambda _: self._take())
         self.place.refused.connect(self.refused)
-        tip = "Take the tool's own place"
-        self.at_tool = button("workspace_point_at_tool", "At the tool", tip, self._follow)
+        tip = tr("Take the tool's own place")
+        self.at_tool = button("workspace_point_at_tool", tr("At the tool"), tip, self._follow)
         self.answer = wrapped_label()
         self.answer.setObjectName("workspace_answer")
         head, column = QHBoxLayout(), QVBoxLayout(self)
@@ -119,7 +122,7 @@ class PointQuery(QWidget):
         if away < _SAME * question.robot.size:
             return f"No. {why}"
         distance = format_quantity(away, length_kind(question.robot), self._preferences)
-        return f"No: the tool comes no nearer than {distance}. {why}"
+        return tr("No: the tool comes no nearer than {distance}. {why}", distance=distance, why=why)
 
 
 def _left_over(answer: Answer) -> float:
@@ -138,9 +141,13 @@ def _question(robot: Robot, T: FloatArray, q: FloatArray, held: bool, ignore_lim
 def _yes(answer: Answer) -> str:
     """In how many ways."""
     if answer.question.solver != CLOSED_FORM:
-        return "Yes, found by Levenberg and Marquardt's method: this arm has no closed form to count its ways."
+        return tr("Yes, found by Levenberg and Marquardt's method: this arm has no closed form to count its ways.")
     count, all_of_them = len(answer.usable), len(answer.branches)
-    ways = "1 branch" if count == 1 else f"{count} branches"
-    left = f" within the limits, {all_of_them - count} beyond them" if count < all_of_them else ""
-    endless = ", each one of infinitely many ways to turn" if any(b.continuum for b in answer.usable) else ""
-    return f"Yes: {ways}{left}{endless}."
+    ways = "1 branch" if count == 1 else tr("{count} branches", count=count)
+    left = (
+        tr(" within the limits, {all_of_them} beyond them", all_of_them=all_of_them - count)
+        if count < all_of_them
+        else ""
+    )
+    endless = tr(", each one of infinitely many ways to turn") if any(b.continuum for b in answer.usable) else ""
+    return tr("Yes: {ways}{left}{endless}.", ways=ways, left=left, endless=endless)

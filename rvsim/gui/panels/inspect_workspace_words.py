@@ -11,14 +11,19 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, format_quantity, length_kind
 from rvsim.kinematics.singularity import task_rows
 from rvsim.kinematics.workspace import SectionMap, WorkspaceTask, has_branches, holds_orientation
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-ORIENTATIONS = {"free": "Tool free to turn", "fixed": "Tool held as now"}
-COLORS = {"manipulability": "Manipulability", "branches": "Branches", "none": "No colours"}
-SECTIONS = {"side": "From the side", "top": "From above"}
+ORIENTATIONS = {"free": tr_later("Tool free to turn"), "fixed": tr_later("Tool held as now")}
+COLORS = {
+    "manipulability": tr_later("Manipulability"),
+    "branches": tr_later("Branches"),
+    "none": tr_later("No colours"),
+}
+SECTIONS = {"side": tr_later("From the side"), "top": tr_later("From above")}
 POSES = {100_000: "100,000 poses", 1_000_000: "1,000,000 poses", 4_000_000: "4,000,000 poses"}
-LIMITS = {"within": "Within limits", "ignored": "Ignoring limits"}
+LIMITS = {"within": tr_later("Within limits"), "ignored": tr_later("Ignoring limits")}
 
 _SOURCE = "source 004"
 FIGURES = {
@@ -34,8 +39,8 @@ FIGURES = {
     "stretched out and folded back.",
 }
 _WHOLE = 6  # rows of J
-_TASKS = {(0, 1): "x, y", (0, 1, 2): "the place", (0, 1, 2, 5): "place and yaw"}
-EMPTY = "No workspace yet: press Sample, and see where the tool can go."
+_TASKS = {(0, 1): "x, y", (0, 1, 2): tr_later("the place"), (0, 1, 2, 5): tr_later("place and yaw")}
+EMPTY = tr_later("No workspace yet: press Sample, and see where the tool can go.")
 
 
 class Values(NamedTuple):
@@ -50,10 +55,10 @@ class Values(NamedTuple):
 def values_of(survey: Survey, section: SectionMap, color: str) -> Values:
     """The values of a section under a choice of colour; the scale is that of both sections and the cloud."""
     if color == "branches" and section.branches is not None:
-        return Values(section.branches, _largest(survey, color), "branches, the most at each place", whole=True)
+        return Values(section.branches, _largest(survey, color), tr("branches, the most at each place"), whole=True)
     if color == "none":
         return Values(None, 1.0, "")
-    title = f"largest manipulability {_measure(survey.workspace.task.robot)}, SI"
+    title = tr("largest manipulability {measure}, SI", measure=_measure(survey.workspace.task.robot))
     return Values(section.manipulability, _largest(survey, "manipulability"), title)
 
 
@@ -87,17 +92,17 @@ def _largest(survey: Survey, color: str) -> float:
 def refusal(robot: Robot, choice: str) -> str:
     """Why a choice makes no sense for an arm, or ""."""
     if choice == "fixed" and not holds_orientation(robot):
-        return "This arm cannot hold the tool's orientation all over an area."
+        return tr("This arm cannot hold the tool's orientation all over an area.")
     if choice == "branches" and not has_branches(robot):
-        return "This arm has no closed form, so its branches cannot be counted."
+        return tr("This arm has no closed form, so its branches cannot be counted.")
     return ""
 
 
 def done_sentence(survey: Survey) -> str:
     """What was done, and how long it took."""
     task = survey.workspace.task
-    what = "Every cell asked" if task.fixed else f"{task.poses:,} poses sampled"
-    limits = "joint limits ignored" if task.ignore_limits else "within the joint limits"
+    what = tr("Every cell asked") if task.fixed else tr("{poses:,} poses sampled", poses=task.poses)
+    limits = tr("joint limits ignored") if task.ignore_limits else tr("within the joint limits")
     return f"{what} in {survey.seconds:.2f} s, {limits}."
 
 
@@ -106,14 +111,14 @@ def section_sentence(survey: Survey, kind: str, preferences: Preferences) -> str
     result = survey.workspace
     robot = result.task.robot
     section = result.side if kind == "side" else result.top
-    rim = "The rim is exact." if section.exact else "The rim goes round the cells that were reached."
+    rim = tr("The rim is exact.") if section.exact else tr("The rim goes round the cells that were reached.")
     if kind == "top":
         height = format_quantity(float(section.origin[2]), length_kind(robot), preferences)
-        return f"Level section at the tool's height, z = {height}. {rim}"
+        return tr("Level section at the tool's height, z = {height}. {rim}", height=height, rim=rim)
     if section.projected:
-        return f"All places, seen along y. {rim}"
+        return tr("All places, seen along y. {rim}", rim=rim)
     angle = format_quantity(float(np.arctan2(section.axis_u[1], section.axis_u[0])), "angle", preferences)
-    return f"Upright section through the base axis, at azimuth {angle}. {rim}"
+    return tr("Upright section through the base axis, at azimuth {angle}. {rim}", angle=angle, rim=rim)
 
 
 def axis_titles(section: SectionMap, kind: str) -> tuple[str, str]:
@@ -137,7 +142,7 @@ def map_csv(survey: Survey, kind: str, shown: Display) -> str:
         ",".join((*(f"{value:.9g}" for value in place), f"{value:.9g}", count))
         for place, value, count in zip(places.tolist(), measure.tolist(), counts, strict=True)
     )
-    return "\n".join((f"x_{unit},y_{unit},z_{unit},manipulability,branches", *rows, ""))
+    return "\n".join((tr("x_{unit},y_{unit},z_{unit},manipulability,branches", unit=unit), *rows, ""))
 
 
 def task_of(robot: Robot, q: FloatArray, choices: dict[str, object]) -> WorkspaceTask:

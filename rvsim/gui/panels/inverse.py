@@ -22,13 +22,16 @@ from rvsim.gui.target_scene import PANEL
 from rvsim.gui.target_solution import CLOSED_FORM, PLACES, SOLVER_TITLES, TASK_TITLES, Answer, NearestPose
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, column_of, combo, form, scrolled, select
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 
 _AXES = ("x", "y", "z")
-_HINT = "Point at a branch to see its ghost; click it, or press Enter, to go there."
-_FREE = "What is wanted is the place alone: the orientation is free, and the tool takes whichever comes of it."
-_PASTE_PLACE = "Three numbers can be pasted or typed into any of the boxes."
-_SOUGHT = {False: "Looking for the nearest pose…", True: "The nearest pose is looked for at rest."}
+_HINT = tr_later("Point at a branch to see its ghost; click it, or press Enter, to go there.")
+_FREE = tr_later(
+    "What is wanted is the place alone: the orientation is free, and the tool takes whichever comes of it."
+)
+_PASTE_PLACE = tr_later("Three numbers can be pasted or typed into any of the boxes.")
+_SOUGHT = {False: tr_later("Looking for the nearest pose…"), True: tr_later("The nearest pose is looked for at rest.")}
 _UNITS = ("angle_unit", "length_unit", "extra_decimals")
 
 
@@ -38,8 +41,8 @@ class TargetSection(QWidget):
     def __init__(self, control: TargetControl, preferences: Preferences) -> None:
         super().__init__()
         self._control, self._preferences = control, preferences
-        self.position = NumberRow("target", _AXES, ("length",) * 3, preferences, "Target", _PASTE_PLACE)
-        self.angles = OrientationBoxes("target", "Target", preferences)
+        self.position = NumberRow("target", _AXES, ("length",) * 3, preferences, tr("Target"), _PASTE_PLACE)
+        self.angles = OrientationBoxes("target", tr("Target"), preferences)
         self.position.edited.connect(lambda index: self._want(control.T[:3, :3], _AXES[index]))
         self.angles.turned.connect(self._want)
         self.angles.told.connect(control.session.say)
@@ -47,16 +50,16 @@ class TargetSection(QWidget):
             boxes.refused.connect(control.session.warn)
             boxes.finished.connect(control.session.end_stroke)
         titles = {name: notation.title for name, notation in NOTATIONS.items()}
-        self.notation = combo("target_notation_selector", "Notation of the orientation", titles)
+        self.notation = combo("target_notation_selector", tr("Notation of the orientation"), titles)
         self.notation.activated.connect(lambda _: preferences.set("orientation", self.notation.currentData()))
-        self.task = combo("ik_task_selector", "What of the pose counts")
+        self.task = combo("ik_task_selector", tr("What of the pose counts"))
         self.task.activated.connect(lambda _: control.set_task(self.task.currentData()))
-        self.solver = combo("ik_solver_selector", "Who solves")
+        self.solver = combo("ik_solver_selector", tr("Who solves"))
         self.solver.activated.connect(lambda _: control.set_solver(self.solver.currentData()))
-        tip = "Read a 4 × 4 matrix, or 3 × 3 and a position, from the clipboard or from what you type"
-        self.paste = button("paste_matrix_button", "Paste…", tip, self.ask_matrix)
+        tip = tr("Read a 4 × 4 matrix, or 3 × 3 and a position, from the clipboard or from what you type")
+        self.paste = button("paste_matrix_button", tr("Paste…"), tip, self.ask_matrix)
         self.at_tool = button(
-            "target_at_tool_button", "To the tool", "Take the tool's own pose", control.target_at_tool
+            "target_at_tool_button", tr("To the tool"), tr("Take the tool's own pose"), control.target_at_tool
         )
         self._lay_out()
         self.show_offer()
@@ -65,8 +68,8 @@ class TargetSection(QWidget):
     def _lay_out(self) -> None:
         rows = form()
         rows.setContentsMargins(0, 0, 0, 0)
-        rows.addRow("Wanted", self.task)
-        rows.addRow("Solver", self.solver)
+        rows.addRow(tr("Wanted"), self.task)
+        rows.addRow(tr("Solver"), self.solver)
         ways = group_of(self.paste, self.at_tool, stretched=False)
         tools = FoldingRow(group_of(self.notation, stretched=True), ways, 6)
         column = QVBoxLayout(self)
@@ -89,7 +92,9 @@ class TargetSection(QWidget):
                 for name in names:
                     box.addItem(titles.get(name, name), name)
             select(box, chosen)
-        self.solver.setToolTip(offer.no_closed_form or "A closed form gives every branch; the others iterate to one")
+        self.solver.setToolTip(
+            offer.no_closed_form or tr("A closed form gives every branch; the others iterate to one")
+        )
         kind = length_kind(control.session.robot)
         for number in self.position.boxes:
             number.set_kind(kind)
@@ -105,20 +110,22 @@ class TargetSection(QWidget):
         name = self._preferences["orientation"]
         shown = "rpy" if name == MATRIX else name
         select(self.notation, shown)
-        self.notation.setToolTip(f"Notation of the orientation. {NOTATIONS[shown].convention}")
+        self.notation.setToolTip(
+            tr("Notation of the orientation. {convention}", convention=NOTATIONS[shown].convention)
+        )
         self.angles.show_notation(shown)
 
     def _want(self, R: FloatArray, name: str) -> None:
         T = np.eye(4)
         T[:3, :3], T[:3, 3] = R, self.position.values
-        self._control.set_target(Wish(T, f"Target {name}", f"target {name}"))
+        self._control.set_target(Wish(T, tr("Target {name}", name=name), tr("target {name}", name=name)))
 
     def ask_matrix(self) -> None:
         """Ask for a matrix."""
         shown = display(length_kind(self._control.session.robot), self._preferences)
         dialog = MatrixDialog(self._control.T, shown.factor, shown.suffix.strip(), self)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.taken.connect(lambda T: self._control.set_target(Wish(T, "Paste a target", "")))
+        dialog.taken.connect(lambda T: self._control.set_target(Wish(T, tr("Paste a target"), "")))
         dialog.open()
 
 
@@ -136,8 +143,8 @@ class WhyNot(QFrame):
         self.left = QLabel(wordWrap=True)
         self.left.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         set_role(self.left, role="muted")
-        tip = "Go to the nearest pose within the limits, and make it the target"
-        self.accept = button("accept_nearest_button", "Accept nearest", tip, control.accept_nearest)
+        tip = tr("Go to the nearest pose within the limits, and make it the target")
+        self.accept = button("accept_nearest_button", tr("Accept nearest"), tip, control.accept_nearest)
         row = QHBoxLayout()
         row.addWidget(self.left, 1)
         row.addWidget(self.accept)
@@ -163,7 +170,7 @@ class WhyNot(QFrame):
     def _left(self, nearest: NearestPose) -> str:
         place = format_quantity(nearest.position_error, length_kind(self._control.session.robot), self._preferences)
         turn = format_quantity(nearest.rotation_error, "angle", self._preferences)
-        return f"Nearest: {place} away, turned by {turn}."
+        return tr("Nearest: {place} away, turned by {turn}.", place=place, turn=turn)
 
 
 class InversePanel(QWidget):
@@ -182,13 +189,13 @@ class InversePanel(QWidget):
         self.detail = QLabel(wordWrap=True)
         self.detail.setObjectName("branch_detail")
         self.order = OrderButton(control.order)
-        tip = "Go to the best branch, by the order below"
-        self.solve = button("solve_button", "Solve", tip, control.solve_now, primary=True)
+        tip = tr("Go to the best branch, by the order below")
+        self.solve = button("solve_button", tr("Solve"), tip, control.solve_now, primary=True)
         self.follow = self._switch(
-            "arm_follows", "Arm follows", "The arm follows each change at once; off: press Solve"
+            "arm_follows", tr("Arm follows"), tr("The arm follows each change at once; off: press Solve")
         )
         self.ghosts = self._switch(
-            "all_ghosts", "All ghosts", "Every branch as a ghost; off: the one under the pointer"
+            "all_ghosts", tr("All ghosts"), tr("Every branch as a ghost; off: the one under the pointer")
         )
         self._lay_out()
         self._connect()
@@ -297,7 +304,13 @@ def _numeric_note(answer: Answer, preferences: Preferences) -> str:
         (found.rotation_error, "angle"),
     )
     words = ", ".join(_error(value, display(kind, preferences)) for value, kind in errors)
-    return f"{found.iterations} iterations, {found.elapsed * 1e3:.1f} ms, errors {words}. {found.reason}"
+    return tr(
+        "{iterations} iterations, {elapsed:.1f} ms, errors {words}. {reason}",
+        iterations=found.iterations,
+        elapsed=found.elapsed * 1000.0,
+        words=words,
+        reason=found.reason,
+    )
 
 
 def _error(value: float, shown: Display) -> str:

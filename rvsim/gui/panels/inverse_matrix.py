@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QPlainTextEdit,
 
 from rvsim.errors import PoseError
 from rvsim.gui.theme import set_role
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import nearest_rotation
 
@@ -40,8 +41,11 @@ def pose_from_text(text: str, T: FloatArray, factor: float) -> FloatArray:
     astray = float(np.abs(pose[:3, :3].T @ pose[:3, :3] - np.eye(3)).max())
     if astray > _ROTATION or np.linalg.det(pose[:3, :3]) < 0.0:
         raise PoseError(
-            "the columns of its rotation must be orthogonal unit vectors that make a right-handed frame; "
-            f"they are off by {astray:.2g}."
+            tr(
+                "the columns of its rotation must be orthogonal unit vectors that make a right-handed frame; "
+                "they are off by {astray:.2g}.",
+                astray=astray,
+            )
         )
     pose[:3, :3] = nearest_rotation(pose[:3, :3])
     return pose
@@ -51,7 +55,7 @@ def _columns(named: dict[str, str]) -> list[list[float]]:
     """The rows of a pose written as its vectors, each on a line: n = (…), o = (…), a = (…), p = (…)."""
     vectors = [[float(number) for number in _NUMBER.findall(named[letter])] for letter in "noap"]
     if any(len(vector) != 3 for vector in vectors):
-        raise PoseError("each of n, o, a, p must have three numbers.")
+        raise PoseError(tr("each of n, o, a, p must have three numbers."))
     return [list(row) for row in zip(*vectors, strict=True)]
 
 
@@ -76,7 +80,9 @@ def _assembled(rows: list[list[float]], T: FloatArray, factor: float) -> FloatAr
         shape = tuple(len(row) for row in rows)
     if shape in ((4, 4, 4, 4), (4, 4, 4)):
         if len(rows) == 4 and rows[3] != [0.0, 0.0, 0.0, 1.0]:
-            raise PoseError(f"its last row must be 0 0 0 1, but is {' '.join(f'{number:g}' for number in rows[3])}.")
+            raise PoseError(
+                tr("its last row must be 0 0 0 1, but is {rows}.", rows=" ".join(f"{number:g}" for number in rows[3]))
+            )
         pose[:3] = rows[:3]
     elif shape in ((3, 3, 3, 3), (3, 3, 3, 1, 1, 1)):
         pose[:3, :3] = rows[:3]
@@ -91,10 +97,16 @@ def _assembled(rows: list[list[float]], T: FloatArray, factor: float) -> FloatAr
 
 
 def _found(shape: tuple[int, ...]) -> str:
-    wanted = "It takes 4 rows of 4 numbers, 3 rows of 4, 3 rows of 3 and a position, or 3 rows of 3."
+    wanted = tr("It takes 4 rows of 4 numbers, 3 rows of 4, 3 rows of 3 and a position, or 3 rows of 3.")
     if not shape:
-        return f"there are no numbers in it. {wanted}"
-    return f"found {len(shape)} row{'s' * (len(shape) > 1)} of {', '.join(map(str, shape))} numbers. {wanted}"
+        return tr("there are no numbers in it. {wanted}", wanted=wanted)
+    return tr(
+        "found {count} row{value} of {map} numbers. {wanted}",
+        count=len(shape),
+        value="s" * (len(shape) > 1),
+        map=", ".join(map(str, shape)),
+        wanted=wanted,
+    )
 
 
 class MatrixDialog(QDialog):
@@ -106,21 +118,24 @@ class MatrixDialog(QDialog):
         super().__init__(parent)
         self._T, self._factor = T, factor
         self.setObjectName("matrix_dialog")
-        self.setWindowTitle("Paste a matrix")
+        self.setWindowTitle(tr("Paste a matrix"))
         self.text = QPlainTextEdit(QGuiApplication.clipboard().text())
         self.text.setObjectName("matrix_text")
-        self.text.setAccessibleName("Matrix")
+        self.text.setAccessibleName(tr("Matrix"))
         self.text.setPlaceholderText(_EXAMPLE)
         self.problem = QLabel(wordWrap=True)
         self.problem.setObjectName("matrix_problem")
         set_role(self.problem, level="error")
         what = QLabel(
-            f"T_base_tool as 4 × 4, 3 × 4, or 3 × 3 and a position; NumPy, MATLAB or plain. Lengths in {unit}, "
-            "unless the text says another unit.",
+            tr(
+                "T_base_tool as 4 × 4, 3 × 4, or 3 × 3 and a position; NumPy, MATLAB or plain. Lengths in {unit}, "
+                "unless the text says another unit.",
+                unit=unit,
+            ),
             wordWrap=True,
         )
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
-        buttons.button(QDialogButtonBox.StandardButton.Ok).setText("Take as target")
+        buttons.button(QDialogButtonBox.StandardButton.Ok).setText(tr("Take as target"))
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         column = QVBoxLayout(self)

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
 from rvsim.kinematics import ORDER_CRITERIA
+from rvsim.language import tr
 
 
 class OrderList(QListWidget):
@@ -29,7 +30,7 @@ class OrderList(QListWidget):
     def __init__(self, order: tuple[str, ...]) -> None:
         super().__init__()
         self.setObjectName("order_list")
-        self.setAccessibleName("Order of preference")
+        self.setAccessibleName(tr("Order of preference"))
         self.setDragDropMode(QAbstractItemView.DragDropMode.InternalMove)
         self.setDefaultDropAction(Qt.DropAction.MoveAction)
         for name in (*order, *(name for name in ORDER_CRITERIA if name not in order)):
@@ -71,7 +72,7 @@ class OrderButton(QToolButton):
         self.setObjectName("order_button")
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
-        self.setAccessibleName("Order of preference among the branches")
+        self.setAccessibleName(tr("Order of preference among the branches"))
         self.list = OrderList(order)
         self._popup = self._make_popup()
         self.clicked.connect(self.open)
@@ -82,11 +83,13 @@ class OrderButton(QToolButton):
         popup = QFrame(self, Qt.WindowType.Popup)
         popup.setObjectName("order_popup")
         popup.setFrameShape(QFrame.Shape.StyledPanel)
-        what = QLabel("Which branch is best? The first criterion decides, the next one between equals.", wordWrap=True)
+        what = QLabel(
+            tr("Which branch is best? The first criterion decides, the next one between equals."), wordWrap=True
+        )
         set_role(what, role="muted")
         row = QHBoxLayout()
-        row.addWidget(button("order_up_button", "↑ Up", "More important", lambda: self.list.shift(-1)))
-        row.addWidget(button("order_down_button", "↓ Down", "Less important", lambda: self.list.shift(1)))
+        row.addWidget(button("order_up_button", "↑ Up", tr("More important"), lambda: self.list.shift(-1)))
+        row.addWidget(button("order_down_button", "↓ Down", tr("Less important"), lambda: self.list.shift(1)))
         row.addStretch(1)
         column = QVBoxLayout(popup)
         column.addWidget(what)
@@ -108,6 +111,6 @@ class OrderButton(QToolButton):
             self.order_changed.emit(self.list.order)
 
     def _show(self) -> None:
-        text = " › ".join(self.list.order) or "as they come"
-        self.setText(f"Order: {text} ▾")
-        self.setToolTip(f"The best branch: {text}. Press to change the order.")
+        text = " › ".join(self.list.order) or tr("as they come")
+        self.setText(tr("Order: {text} ▾", text=text))
+        self.setToolTip(tr("The best branch: {text}. Press to change the order.", text=text))

@@ -37,6 +37,7 @@ from rvsim.gui.quantities import (
     joint_kind,
 )
 from rvsim.kinematics import Branch
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
 SORT_ROLE = Qt.ItemDataRole.UserRole
@@ -44,8 +45,8 @@ NAME_ROLE = Qt.ItemDataRole.UserRole + 1
 _TOP = QModelIndex()
 _HERE = 1e-6  # [rad, m] a branch so close is where the arm is
 _HEAD_PADDING = 13  # of the style sheet, both sides together
-_SORT = "Click to sort; the menu of the right button sorts by more"
-_CONTINUUM = "∞: one of infinitely many, for a joint, or the tool's orientation, may take any value here."
+_SORT = tr_later("Click to sort; the menu of the right button sorts by more")
+_CONTINUUM = tr_later("∞: one of infinitely many, for a joint, or the tool's orientation, may take any value here.")
 
 
 class Row(NamedTuple):
@@ -83,7 +84,9 @@ def columns_of(robot: Robot, preferences: Preferences) -> tuple[Column, ...]:
         stop = "" if row.branch.within_limits else f"\n{short_limit_words(robot, row.branch, preferences)}"
         return _title(row) + stop
 
-    first = Column("#", f"The number of the branch, as in the scene. {_SORT}", branch, lambda row: row.name, "⑧")
+    first = Column(
+        "#", tr("The number of the branch, as in the scene. {sort}", sort=_SORT), branch, lambda row: row.name, "⑧"
+    )
     joints = (_joint_column(robot, joint, preferences) for joint in range(robot.dof))
     return (first, *joints, *_verdict_columns(robot, preferences))
 
@@ -112,28 +115,28 @@ def _verdict_columns(robot: Robot, preferences: Preferences) -> tuple[Column, ..
         return "within" if row.branch.within_limits else limit_words(robot, row.branch, preferences, "\n")
 
     return (
-        Column("limits", "Whether every joint is within its limits, or which is not", verdict, _outside, left=True),
+        Column("limits", tr("Whether every joint is within its limits, or which is not"), verdict, _outside, left=True),
         Column(
             "margin",
-            "How far the joint nearest to a limit is from it; negative outside",
+            tr("How far the joint nearest to a limit is from it; negative outside"),
             lambda row: of_joint(row.branch.limit_margin, int(np.argmin(row.branch.limit_margin))),
             lambda row: float(row.branch.limit_margin.min()),
         ),
         Column(
             "moves",
-            "The largest joint motion from where the arm is",
+            tr("The largest joint motion from where the arm is"),
             lambda row: _distance_text(robot, row.branch, preferences),
             lambda row: row.branch.distance,
         ),
         Column(
             "w",
-            "Manipulability √det(JJᵀ): 0 at a singular pose",
+            tr("Manipulability √det(JJᵀ): 0 at a singular pose"),
             lambda row: f"{row.branch.manipulability:.4f}",
             lambda row: row.branch.manipulability,
         ),
         Column(
             "residual",
-            "The largest entry of |FK(q) − T| that was asked for",
+            tr("The largest entry of |FK(q) − T| that was asked for"),
             lambda row: format_scientific(row.branch.residual),
             lambda row: row.branch.residual,
         ),
@@ -227,12 +230,22 @@ class BranchModel(QAbstractTableModel):
         """The whole verdict of a branch, for tip and screen reader."""
         branch = row.branch
         limits = limit_words(self._robot, branch, self._preferences) or (
-            f"within limits, {margin_words(self._robot, branch, self._preferences)}"
+            tr("within limits, {margin}", margin=margin_words(self._robot, branch, self._preferences))
         )
-        here = "the arm is here" if row.here else f"moves {_distance_text(self._robot, branch, self._preferences)}"
+        here = (
+            tr("the arm is here")
+            if row.here
+            else tr("moves {distance}", distance=_distance_text(self._robot, branch, self._preferences))
+        )
         parts = (f"{_title(row)}: {limits}", here, f"w = {branch.manipulability:.4f}")
         endless = f" {_CONTINUUM}" if branch.continuum else ""
-        return f"{', '.join(parts)}, residual {format_scientific(branch.residual)}.{endless} {row.note}".rstrip()
+        return tr(
+            "{parts}, residual {format_scientific}.{endless} {note}",
+            parts=", ".join(parts),
+            format_scientific=format_scientific(branch.residual),
+            endless=endless,
+            note=row.note,
+        ).rstrip()
 
     def text_of(self, row: Row) -> RowText:
         """What is written in a row that is seen."""
@@ -273,7 +286,7 @@ class BranchTable(QTableView):
     def __init__(self, model: BranchModel, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("branch_table")
-        self.setAccessibleName("Branches")
+        self.setAccessibleName(tr("Branches"))
         self.branches = model
         self._sorted = QSortFilterProxyModel(self)
         self._sorted.setSourceModel(model)
@@ -342,7 +355,9 @@ class BranchTable(QTableView):
         header = self.horizontalHeader()
         for action in header.actions():
             action.deleteLater()
-        heads = {-1: "Best first"} | {i: f"Sort by {column.head}" for i, column in enumerate(self.branches.columns)}
+        heads = {-1: tr("Best first")} | {
+            i: tr("Sort by {head}", head=column.head) for i, column in enumerate(self.branches.columns)
+        }
         for index, text in heads.items():
             action = QAction(text, header)
             action.triggered.connect(partial(self._sort, index))

@@ -30,15 +30,16 @@ from rvsim.gui.quantities import display, format_number, joint_kind
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, scrolled
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_IGNORE_HINT = "Switch “Ignore limits” on to go there."
+_IGNORE_HINT = tr_later("Switch “Ignore limits” on to go there.")
 _SERVO_HINTS = {  # by whether the servo narrows the lower limit, and the upper one
     (False, False): _IGNORE_HINT,
-    (True, False): "Below that the servo of the connected arm does not reach.",
-    (False, True): "Above that the servo of the connected arm does not reach.",
-    (True, True): "The servo of the connected arm does not reach it.",
+    (True, False): tr_later("Below that the servo of the connected arm does not reach."),
+    (False, True): tr_later("Above that the servo of the connected arm does not reach."),
+    (True, True): tr_later("The servo of the connected arm does not reach it."),
 }
 _SHORTEST_NAME = 4  # letters of a pose's name that can be read at least
 _LONGEST = "−1000.0 mm"
@@ -77,7 +78,7 @@ class JointRow(QWidget):
         self.box.setObjectName(f"joint_value_{index + 1}")
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setObjectName(f"joint_slider_{index + 1}")
-        self.slider.setAccessibleName(f"{title}, slider")
+        self.slider.setAccessibleName(tr("{title}, slider", title=title))
         self._lower, self._upper = QLabel(), QLabel()
         self._mark = QLabel("⚠")
         self._step = _SLIDER_STEPS[self._kind]
@@ -100,8 +101,8 @@ class JointRow(QWidget):
         for label in (self._lower, self._upper):
             set_role(label, role="muted")
         set_role(self._mark, level="error")
-        self._mark.setToolTip(f"{title} is outside its limits")
-        self._mark.setAccessibleName(f"{title} is outside its limits")
+        self._mark.setToolTip(tr("{title} is outside its limits", title=title))
+        self._mark.setAccessibleName(tr("{title} is outside its limits", title=title))
         self._mark.hide()
         self.slider.setStyleSheet(_slider_style(color))
         top = QHBoxLayout()
@@ -145,7 +146,11 @@ class JointRow(QWidget):
         for label, limit, end in zip((self._lower, self._upper), (lower, upper), ends, strict=True):
             free = math.isinf(limit)
             label.setText(format_number(end * shown.factor, decimals))
-            label.setToolTip("No limit" if free else f"Limit: {limit * shown.factor:g}{shown.suffix}")
+            label.setToolTip(
+                tr("No limit")
+                if free
+                else tr("Limit: {limit:g}{suffix}", limit=limit * shown.factor, suffix=shown.suffix)
+            )
         with QSignalBlocker(self.slider):
             self.slider.setRange(math.ceil(ends[0] / self._step - 1e-6), math.floor(ends[1] / self._step + 1e-6))
             self.slider.setSingleStep(round(shown.step / shown.factor / self._step) or 1)
@@ -176,13 +181,15 @@ class JointRow(QWidget):
 
 def _slider_style(color: str) -> str:
     handle = QColor(color).darker(115).name()
-    return (
-        "QSlider { min-height: 20px; }"
-        f"QSlider::groove:horizontal {{ height: 4px; border-radius: 2px; background: palette(mid); }}"
-        f"QSlider::sub-page:horizontal {{ height: 4px; border-radius: 2px; background: {color}; }}"
-        f"QSlider::handle:horizontal {{ width: 14px; height: 14px; margin: -5px 0; border-radius: 7px;"
-        f" background: {color}; border: 1px solid {handle}; }}"
-        "QSlider::handle:horizontal:focus { border: 2px solid palette(text); }"
+    return tr(
+        "QSlider {{ min-height: 20px; }}"
+        "QSlider::groove:horizontal {{ height: 4px; border-radius: 2px; background: palette(mid); }}"
+        "QSlider::sub-page:horizontal {{ height: 4px; border-radius: 2px; background: {color}; }}"
+        "QSlider::handle:horizontal {{ width: 14px; height: 14px; margin: -5px 0; border-radius: 7px;"
+        " background: {color}; border: 1px solid {handle}; }}"
+        "QSlider::handle:horizontal:focus {{ border: 2px solid palette(text); }}",
+        color=color,
+        handle=handle,
     )
 
 
@@ -190,9 +197,9 @@ def _joint_words(robot: Robot, index: int) -> str:
     """ "joint 3 (elbow)", or "joint 3" where its name says no more."""
     name = robot.joint_names[index]
     return (
-        f"joint {index + 1}"
+        tr("joint {index}", index=index + 1)
         if name.lower() in (f"joint {index + 1}", f"j{index + 1}")
-        else f"joint {index + 1} ({name})"
+        else tr("joint {index} ({name})", index=index + 1, name=name)
     )
 
 
@@ -205,7 +212,7 @@ class JointsPanel(QWidget):
         super().__init__(parent)
         self._session, self._preferences = session, preferences
         self._rows: list[JointRow] = []
-        self.robots = combo("robot_selector", "Arm")
+        self.robots = combo("robot_selector", tr("Arm"))
         self.robots.activated.connect(lambda _: self.robot_wanted.emit(self.robots.currentData()))
         self._joints = QWidget()
         self._joints_column = QVBoxLayout(self._joints)
@@ -230,26 +237,28 @@ class JointsPanel(QWidget):
     # --- construction ----------------------------------------------------------------------------------------------
 
     def _make_controls(self) -> None:
-        self.plot = button("plot_button", "Plot", "Draw the arm at the typed values", self.plot_typed, primary=True)
-        self.home = button("home_button", "Home", "The arm's home pose (Ctrl+H)", self.go_home)
-        self.zero = button("zero_button", "Zero", "All joint variables 0", self.go_zero)
-        self.random = button("random_button", "Random", "Any pose within the limits", self.go_random)
-        self.live = QCheckBox("Live")
+        self.plot = button(
+            "plot_button", tr("Plot"), tr("Draw the arm at the typed values"), self.plot_typed, primary=True
+        )
+        self.home = button("home_button", tr("Home"), tr("The arm's home pose (Ctrl+H)"), self.go_home)
+        self.zero = button("zero_button", tr("Zero"), tr("All joint variables 0"), self.go_zero)
+        self.random = button("random_button", tr("Random"), tr("Any pose within the limits"), self.go_random)
+        self.live = QCheckBox(tr("Live"))
         self.live.setObjectName("live_switch")
-        self.live.setToolTip("The arm follows each value at once; off: press Plot")
+        self.live.setToolTip(tr("The arm follows each value at once; off: press Plot"))
         self.live.setChecked(self._preferences["live"])
         self.live.toggled.connect(lambda on: self._preferences.set("live", on))
-        self.ignore = QCheckBox("Ignore limits")
+        self.ignore = QCheckBox(tr("Ignore limits"))
         self.ignore.setObjectName("ignore_limits_switch")
-        self.ignore.setToolTip("Let joints go beyond their limits; such joints are marked")
+        self.ignore.setToolTip(tr("Let joints go beyond their limits; such joints are marked"))
         self.ignore.toggled.connect(self._on_ignore)
-        self.poses = combo("pose_selector", "Saved poses")
+        self.poses = combo("pose_selector", tr("Saved poses"))
         self.poses.setMinimumContentsLength(_SHORTEST_NAME)
         self.poses.activated.connect(self._recall)
-        tip = "Save this pose under a name (Ctrl+D)"
-        self.save_pose = button("save_pose_button", "Save…", tip, self.ask_pose_name)
-        tip = "Forget the pose chosen in the list"
-        self.forget_pose = button("forget_pose_button", "Forget", tip, self._forget)
+        tip = tr("Save this pose under a name (Ctrl+D)")
+        self.save_pose = button("save_pose_button", tr("Save…"), tip, self.ask_pose_name)
+        tip = tr("Forget the pose chosen in the list")
+        self.forget_pose = button("forget_pose_button", tr("Forget"), tip, self._forget)
 
     def _lay_out(self) -> None:
         scroll = scrolled(self._joints)
@@ -359,7 +368,7 @@ class JointsPanel(QWidget):
         poses = self._session.experiment.poses
         with QSignalBlocker(self.poses):
             self.poses.clear()
-            self.poses.addItem("Poses…" if poses else "No poses")
+            self.poses.addItem(tr("Poses…") if poses else tr("No poses"))
             for pose in poses:
                 self.poses.addItem(pose.name)
         self.poses.setEnabled(bool(poses))
@@ -372,76 +381,85 @@ class JointsPanel(QWidget):
         typed[index] = value
         name = _joint_words(self._session.robot, index)
         if self._preferences["live"]:
-            self._session.edit(f"Move {name}", self._session.experiment.at(typed), merge=f"joint {index}")
+            self._session.edit(tr("Move {name}", name=name), self._session.experiment.at(typed), merge=f"joint {index}")
         else:
-            self._type(f"Type {name}", typed, merge=f"type {index}")
+            self._type(tr("Type {name}", name=name), typed, merge=f"type {index}")
 
     def _type(self, text: str, typed: FloatArray, merge: str = "") -> None:
         self._session.edit(text, self._session.experiment.with_typed(typed), merge=merge)
-        self._session.say("Typed, not drawn yet: press Plot.")
+        self._session.say(tr("Typed, not drawn yet: press Plot."))
 
     def _on_pose(self, values: tuple[float, ...]) -> None:
         """All joints at once, in the shown units."""
         robot = self._session.robot
         if len(values) != robot.dof:
-            self._session.warn(f"A pose of the {robot.title} has {robot.dof} values, not {len(values)}.")
+            self._session.warn(
+                tr(
+                    "A pose of the {title} has {dof} values, not {count}.",
+                    title=robot.title,
+                    dof=robot.dof,
+                    count=len(values),
+                )
+            )
             return
         factors = [display(joint_kind(robot, index), self._preferences).factor for index in range(robot.dof)]
         q = np.divide(values, factors)
         if self._preferences["live"]:
-            self._session.move_to(q, "Paste pose")
+            self._session.move_to(q, tr("Paste pose"))
         else:
-            self._type("Type a pose", q)
+            self._type(tr("Type a pose"), q)
 
     def _on_ignore(self, on: bool) -> None:
-        text = "Ignore limits" if on else "Respect limits"
+        text = tr("Ignore limits") if on else tr("Respect limits")
         self._session.edit(text, replace(self._session.experiment, ignore_limits=on))
 
     def plot_typed(self) -> None:
         """Draw the arm at the typed values."""
         typed = self._session.experiment.typed
-        if typed is not None and not self._session.move_to(typed, "Plot the typed values"):
+        if typed is not None and not self._session.move_to(typed, tr("Plot the typed values")):
             return
         names = ", ".join(
             f"{format_number(value * display(joint_kind(self._session.robot, i), self._preferences).factor, 1)}"
             for i, value in enumerate(self._typed)
         )
-        self._session.say(f"Plotted the {self._session.robot.title} at ({names}).")
+        self._session.say(tr("Plotted the {title} at ({names}).", title=self._session.robot.title, names=names))
 
     def go_home(self) -> None:
         """Go to the arm's home pose."""
-        if self._session.move_to(self._session.robot.home, "Go home"):
-            self._session.say(f"The {self._session.robot.title} is at home.")
+        if self._session.move_to(self._session.robot.home, tr("Go home")):
+            self._session.say(tr("The {title} is at home.", title=self._session.robot.title))
 
     def go_zero(self) -> None:
         """Go to q = 0, if the limits allow it."""
-        self._session.move_to(np.zeros(self._session.robot.dof), "Go to zero")
+        self._session.move_to(np.zeros(self._session.robot.dof), tr("Go to zero"))
 
     def go_random(self) -> None:
         """Go to any pose within the limits."""
-        self._session.move_to(random_pose(self._session.robot, secrets.randbits(64)), "Go to a random pose")
+        self._session.move_to(random_pose(self._session.robot, secrets.randbits(64)), tr("Go to a random pose"))
 
     def ask_pose_name(self) -> None:
         """Save the present pose under a name that the user types."""
         count = len(self._session.experiment.poses) + 1
-        name, given = QInputDialog.getText(self, "Save pose", "Name of this pose:", text=f"pose {count}")
+        name, given = QInputDialog.getText(
+            self, tr("Save pose"), tr("Name of this pose:"), text=tr("pose {count}", count=count)
+        )
         if given and name.strip():
             self.save_pose_as(name.strip())
 
     def save_pose_as(self, name: str) -> None:
         """Save the present pose under that name."""
-        self._session.edit(f"Save pose {name}", self._session.experiment.with_pose(name))
-        self._session.say(f"Saved as “{name}”.")
+        self._session.edit(tr("Save pose {name}", name=name), self._session.experiment.with_pose(name))
+        self._session.say(tr("Saved as “{name}”.", name=name))
 
     def _recall(self, row: int) -> None:
         if row == 0:
             return
         pose = self._session.experiment.poses[row - 1]
-        self._session.move_to(pose.q, f"Go to pose {pose.name}")
+        self._session.move_to(pose.q, tr("Go to pose {name}", name=pose.name))
 
     def _forget(self) -> None:
         name = self.poses.currentText()
         if self.poses.currentIndex() > 0:
-            self._session.edit(f"Forget pose {name}", self._session.experiment.without_pose(name))
+            self._session.edit(tr("Forget pose {name}", name=name), self._session.experiment.without_pose(name))
         else:
-            self._session.say("Choose the pose to forget in the list first.")
+            self._session.say(tr("Choose the pose to forget in the list first."))

@@ -10,6 +10,7 @@ from rvsim.gui.panels.laboratory_source_002 import Source002Page
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.gui.widgets import column_of
+from rvsim.language import tr
 
 
 class LaboratoryPanel(QWidget):
@@ -23,8 +24,8 @@ class LaboratoryPanel(QWidget):
         self.pages = QTabWidget()
         self.pages.setObjectName("lab_pages")
         self.pages.setDocumentMode(True)
-        self.pages.addTab(self.contest, "Four solvers")
-        self.pages.addTab(self.source_002, "Source 002 as printed")
+        self.pages.addTab(self.contest, tr("Four solvers"))
+        self.pages.addTab(self.source_002, tr("Source 002 as printed"))
         column_of(self, self.pages)
 
     def set_seen(self, seen: bool) -> None:

@@ -37,13 +37,16 @@ from rvsim.gui.widgets import button, scrolled
 from rvsim.gui.workers import LatestWorker
 from rvsim.kinematics.numeric import Preset
 from rvsim.lab.laboratory import TITLES, Contest, Outcome, Trial, contest_sentence, run_contest, verdict
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 if TYPE_CHECKING:
     from rvsim.gui.panels.laboratory_plot import LogPlot
 
-_EMPTY = "Press Run: all four solvers start from the same joints, and their errors are drawn over the iterations."
+_EMPTY = tr_later(
+    "Press Run: all four solvers start from the same joints, and their errors are drawn over the iterations."
+)
 _WIDE = 680  # pixels from which the settings stand beside the results
 _LOW = 500  # pixels below which the table scrolls
 _SETUP_WIDTH = 340
@@ -94,19 +97,19 @@ class ContestPage(Page):
         self.target = TargetChooser(self._session, self._preferences)
         self.start = StartChooser(self._session, self._preferences)
         self.rules = RulesChooser(self._session, self._preferences)
-        tip = "Let all four solvers start from the same joints"
-        self.run_button = button("lab_run_button", "Run", tip, self.run, primary=True)
-        self.go_button = button("lab_go_button", "Go to result", "", self.go_to_result)
-        self.cancel_button = button("lab_cancel_button", "Cancel", "Stop; the old result stays", self.cancel)
-        self.live = QCheckBox("Live")
+        tip = tr("Let all four solvers start from the same joints")
+        self.run_button = button("lab_run_button", tr("Run"), tip, self.run, primary=True)
+        self.go_button = button("lab_go_button", tr("Go to result"), "", self.go_to_result)
+        self.cancel_button = button("lab_cancel_button", tr("Cancel"), tr("Stop; the old result stays"), self.cancel)
+        self.live = QCheckBox(tr("Live"))
         self.live.setObjectName("lab_live_switch")
-        self.live.setToolTip("Run again after every change")
+        self.live.setToolTip(tr("Run again after every change"))
         self.live.setChecked(True)
         self.busy = QProgressBar()
         self.busy.setRange(0, 0)
         self.busy.setTextVisible(False)
         self.busy.setFixedHeight(4)
-        self.busy.setAccessibleName("The solvers are at work")
+        self.busy.setAccessibleName(tr("The solvers are at work"))
         self.busy.setMinimumWidth(1)
         policy = self.busy.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
@@ -260,7 +263,7 @@ class ContestPage(Page):
     def go_to_result(self) -> None:
         """Let the arm go where the solver that is looked at ended."""
         if (outcome := self.lit) is not None:
-            self._session.move_to(outcome.result.q, f"Go to the result of {outcome.title}")
+            self._session.move_to(outcome.result.q, tr("Go to the result of {title}", title=outcome.title))
 
     # --- showing ---------------------------------------------------------------------------------------------------
 
@@ -282,8 +285,8 @@ class ContestPage(Page):
         angle = display("angle", self._preferences)
         histories = {outcome.solver: outcome.result.history for outcome in self.contest.outcomes}
         place, turn = self.plots
-        place.set_titles("", f"position, {length.suffix.strip()}")
-        turn.set_titles("iteration", f"rotation, {angle.suffix.strip()}")
+        place.set_titles("", tr("position, {strip}", strip=length.suffix.strip()))
+        turn.set_titles("iteration", tr("rotation, {strip}", strip=angle.suffix.strip()))
         place.show_curves(
             {name: length.factor * history.position_error for name, history in histories.items()},
             length.factor * trial.options.position_tolerance,
@@ -305,7 +308,7 @@ class ContestPage(Page):
             self._say(_EMPTY, "")
             self.iterates_changed.emit(None)
             return
-        self.go_button.setToolTip(f"Let the arm go where {TITLES[outcome.solver]} ended")
+        self.go_button.setToolTip(tr("Let the arm go where {titles} ended", titles=TITLES[outcome.solver]))
         units = shown_units(self._preferences)
         if chosen:
             self._say(verdict(contest.trial, outcome, units), "good" if outcome.result.converged else "warning")

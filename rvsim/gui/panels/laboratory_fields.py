@@ -14,6 +14,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import joint_kind
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import number_font
+from rvsim.language import tr
 from rvsim.robot import Robot
 
 _SLIDER_STEPS = 1000
@@ -118,10 +119,10 @@ class StartJoint(QWidget):
     def __init__(self, robot: Robot, index: int, preferences: Preferences) -> None:
         super().__init__()
         self._index, self._ends = index, slider_range(robot, index, False)
-        title = f"Start of J{index + 1} {robot.joint_names[index]}"
+        title = tr("Start of J{index} {joint_names}", index=index + 1, joint_names=robot.joint_names[index])
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setObjectName(f"lab_start_slider_{index + 1}")
-        self.slider.setAccessibleName(f"{title}, slider")
+        self.slider.setAccessibleName(tr("{title}, slider", title=title))
         self.slider.setToolTip(title)
         self.slider.setRange(0, _SLIDER_STEPS)
         self.slider.setPageStep(_SLIDER_STEPS // 20)

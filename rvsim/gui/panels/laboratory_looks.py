@@ -14,6 +14,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.theme import THEMES
 from rvsim.kinematics.numeric import Solver
 from rvsim.lab.laboratory import SHORT_TITLES, TITLES
+from rvsim.language import tr, tr_later
 
 _SAMPLE = QSize(30, 12)
 _GAP = 14
@@ -81,9 +82,15 @@ SOLVER_LOOKS: dict[str, CurveLook] = {
     solver: CurveLook(SHORT_TITLES[solver], TITLES[solver], *stroke) for solver, stroke in _SOLVER_STROKES.items()
 }
 SOURCE_002_LOOKS = {
-    "printed": CurveLook("as printed", "As printed: the real arm", "#b42318", "#ff8a7a", (), "square"),
-    "believed": CurveLook("believed", "As printed: what it believes", "#b04a00", "#ffa657", (5.0, 2.5), "triangle"),
-    "corrected": CurveLook("corrected", "Corrected: the real arm", "#0b5fc0", "#58a6ff", (1.5, 2.0), "circle"),
+    "printed": CurveLook(
+        tr_later("as printed"), tr_later("As printed: the real arm"), "#b42318", "#ff8a7a", (), "square"
+    ),
+    "believed": CurveLook(
+        "believed", tr_later("As printed: what it believes"), "#b04a00", "#ffa657", (5.0, 2.5), "triangle"
+    ),
+    "corrected": CurveLook(
+        "corrected", tr_later("Corrected: the real arm"), "#0b5fc0", "#58a6ff", (1.5, 2.0), "circle"
+    ),
 }
 
 
@@ -130,7 +137,7 @@ class Legend(QWidget):
     def __init__(self, looks: dict[str, CurveLook], preferences: Preferences) -> None:
         super().__init__()
         self._looks, self._preferences, self._lit = looks, preferences, ""
-        self.setAccessibleName("Legend: " + ", ".join(look.title for look in looks.values()))
+        self.setAccessibleName(tr("Legend: ") + ", ".join(look.title for look in looks.values()))
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
 
     def light(self, name: str) -> None:

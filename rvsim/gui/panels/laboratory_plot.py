@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QSizePolicy
 from rvsim.gui.panels.laboratory_looks import CurveLook
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.theme import THEMES
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 
 _FLOOR = 1e-17  # what an error of 0 is drawn as: a logarithm needs something
@@ -50,7 +51,7 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
         """Name the axes."""
         if (below, beside) != self._titles:
             self._titles = (below, beside)
-            self.setAccessibleName(f"{beside}, by {below or 'iteration'}, logarithmic")
+            self.setAccessibleName(tr("{beside}, by {value}, logarithmic", beside=beside, value=below or "iteration"))
             self.dress()
 
     def show_curves(self, values: Mapping[str, Sequence[float] | FloatArray], limit: float = 0.0) -> None:

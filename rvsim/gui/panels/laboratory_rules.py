@@ -20,8 +20,9 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import combo, select
 from rvsim.kinematics.numeric import Preset, SolverOptions, Task
 from rvsim.lab.laboratory import EXACT, PRESETS
+from rvsim.language import tr, tr_later
 
-_TASKS = {"pose": "Full pose", "position": "Position only"}
+_TASKS = {"pose": tr_later("Full pose"), "position": tr_later("Position only")}
 _OWN = "own"
 
 
@@ -35,25 +36,65 @@ class Field(NamedTuple):
 
 
 _FIELDS = (
-    Field("max_iterations", "MaxIterations", "The most iterations, of all tries together"),
-    Field("max_time", "MaxTime, s", "The most seconds, of all tries together"),
-    Field("solution_tolerance", "SolutionTolerance", "On the norm of weight · error; a solution must be below it"),
-    Field("gradient_tolerance", "GradientTolerance", "A try ends where the cost's gradient is smaller than this"),
-    Field("step_tolerance", "StepTolerance", "A try ends when no joint moves farther than this in a step [rad, m]"),
-    Field("error_change_tolerance", "ErrorChangeTol. (LM)", "LM ends a try when no entry of the error changes more"),
-    Field("damping_bias", "DampingBias (LM)", "The damping of LM that stays when the error is gone"),
-    Field("patience", "Patience", "A try ends when its cost has not halved in so many iterations (not in source 000)"),
-    Field("position_tolerance", "Position within", "A solution must be as near as this (not in source 000)", "length"),
-    Field("rotation_tolerance", "Rotation within", "A solution must be turned as near as this", "angle"),
+    Field("max_iterations", "MaxIterations", tr_later("The most iterations, of all tries together")),
+    Field("max_time", tr_later("MaxTime, s"), tr_later("The most seconds, of all tries together")),
+    Field(
+        "solution_tolerance",
+        "SolutionTolerance",
+        tr_later("On the norm of weight · error; a solution must be below it"),
+    ),
+    Field(
+        "gradient_tolerance",
+        "GradientTolerance",
+        tr_later("A try ends where the cost's gradient is smaller than this"),
+    ),
+    Field(
+        "step_tolerance",
+        "StepTolerance",
+        tr_later("A try ends when no joint moves farther than this in a step [rad, m]"),
+    ),
+    Field(
+        "error_change_tolerance",
+        tr_later("ErrorChangeTol. (LM)"),
+        tr_later("LM ends a try when no entry of the error changes more"),
+    ),
+    Field(
+        "damping_bias", tr_later("DampingBias (LM)"), tr_later("The damping of LM that stays when the error is gone")
+    ),
+    Field(
+        "patience",
+        tr_later("Patience"),
+        tr_later("A try ends when its cost has not halved in so many iterations (not in source 000)"),
+    ),
+    Field(
+        "position_tolerance",
+        tr_later("Position within"),
+        tr_later("A solution must be as near as this (not in source 000)"),
+        "length",
+    ),
+    Field(
+        "rotation_tolerance",
+        tr_later("Rotation within"),
+        tr_later("A solution must be turned as near as this"),
+        "angle",
+    ),
 )
 _WHOLE = ("max_iterations", "patience")
 _SWITCHES = (
-    ("enforce_joint_limits", "EnforceJointLimits", "No iterate leaves the joint limits"),
-    ("allow_random_restarts", "AllowRandomRestarts", "After a try that failed, another from a random start"),
-    ("use_error_damping", "UseErrorDamping (LM)", "LM damps by the cost plus the bias; off: not at all"),
+    ("enforce_joint_limits", "EnforceJointLimits", tr_later("No iterate leaves the joint limits")),
+    (
+        "allow_random_restarts",
+        "AllowRandomRestarts",
+        tr_later("After a try that failed, another from a random start"),
+    ),
+    (
+        "use_error_damping",
+        tr_later("UseErrorDamping (LM)"),
+        tr_later("LM damps by the cost plus the bias; off: not at all"),
+    ),
 )
 _WEIGHTS = tuple(f"{what} {axis}" for what in ("rotation", "position") for axis in "xyz")
-_WEIGHTS_TIP = (
+_WEIGHTS_TIP = tr_later(
     "Weights of the error: first the three of the orientation (rotation about x, y, z), then the three of the position "
     "along x, y, z, in base axes. This order, orientation first, is that of source 000."
 )
@@ -78,12 +119,12 @@ class RulesChooser(QWidget):
         self.options: SolverOptions = EXACT.options
         self.task: Task = "pose"
         names = {preset.title: preset.title for preset in PRESETS}
-        self.presets = combo("lab_rules_selector", "Settings of the solvers", {**names, _OWN: "Own settings"})
+        self.presets = combo("lab_rules_selector", tr("Settings of the solvers"), {**names, _OWN: tr("Own settings")})
         self.presets.activated.connect(self._on_preset)
-        self.tasks = combo("lab_task_selector", "What of the target counts", _TASKS)
+        self.tasks = combo("lab_task_selector", tr("What of the target counts"), _TASKS)
         self.tasks.activated.connect(self._on_task)
         self.details = QWidget()
-        self.disclosure = Disclosure("lab_rules_details_button", "all settings", self.details)
+        self.disclosure = Disclosure("lab_rules_details_button", tr("all settings"), self.details)
         self._make_fields()
         self._make_damping()
         self._lay_out()
@@ -97,7 +138,9 @@ class RulesChooser(QWidget):
         self.captions = {field.name: _caption(field.title, self.numbers[field.name]) for field in _FIELDS}
         for field in _FIELDS:
             self.numbers[field.name].number_changed.connect(lambda value, f=field: self._on_number(f, value))
-        self.weights = [self._number(f"weight_{w.replace(' ', '_')}", f"Weight: {w}", _WEIGHTS_TIP) for w in _WEIGHTS]
+        self.weights = [
+            self._number(f"weight_{w.replace(' ', '_')}", tr("Weight: {w}", w=w), _WEIGHTS_TIP) for w in _WEIGHTS
+        ]
         for weight in self.weights:
             weight.number_changed.connect(lambda _: self._edit(weights=tuple(edit.number for edit in self.weights)))
         self.switches = {name: self._switch(name, title, tip) for name, title, tip in _SWITCHES}
@@ -115,15 +158,15 @@ class RulesChooser(QWidget):
         return switch
 
     def _make_damping(self) -> None:
-        tip = "λ of damped least squares (DLS): small is quick and wild, large is slow and calm near singular poses"
+        tip = tr("λ of damped least squares (DLS): small is quick and wild, large is slow and calm near singular poses")
         self.damping = QSlider(Qt.Orientation.Horizontal)
         self.damping.setObjectName("lab_damping_slider")
-        self.damping.setAccessibleName("Damping of DLS, slider")
+        self.damping.setAccessibleName(tr("Damping of DLS, slider"))
         self.damping.setToolTip(tip)
         self.damping.setRange(0, _DAMPING_STEPS)
         self.damping.setPageStep(_DAMPING_STEPS // 10)
         self.damping.valueChanged.connect(lambda step: self._edit(damping=_damping_at(step)))
-        self.damping_value = self._number("damping", "Damping λ", tip)
+        self.damping_value = self._number("damping", tr("Damping λ"), tip)
         self.damping_value.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.damping_value.setFixedWidth(72)
         self.damping_value.number_changed.connect(lambda value: self._edit(damping=value))
@@ -133,7 +176,7 @@ class RulesChooser(QWidget):
         grid.setContentsMargins(0, 0, 0, 2)
         grid.setHorizontalSpacing(10)
         grid.setVerticalSpacing(4)
-        grid.addWidget(labelled_row("Counts", self.tasks), 0, 0, 1, 6)
+        grid.addWidget(labelled_row(tr("Counts"), self.tasks), 0, 0, 1, 6)
         for index, field in enumerate(_FIELDS):
             row, column = 1 + 2 * (index // 2), 3 * (index % 2)
             grid.addWidget(self.captions[field.name], row, column, 1, 3)
@@ -142,7 +185,7 @@ class RulesChooser(QWidget):
         for index, switch in enumerate(self.switches.values()):
             grid.addWidget(switch, row + index, 0, 1, 6)
         row = grid.rowCount()
-        for half, what in enumerate(("Weights, rotation x y z", "then position x y z")):
+        for half, what in enumerate((tr("Weights, rotation x y z"), tr("then position x y z"))):
             caption = _caption(what, self.weights[3 * half])
             caption.setToolTip(_WEIGHTS_TIP)
             grid.addWidget(caption, row, 3 * half, 1, 3)
@@ -152,7 +195,7 @@ class RulesChooser(QWidget):
         column_layout = QVBoxLayout(self)
         column_layout.setContentsMargins(0, 0, 0, 0)
         column_layout.setSpacing(6)
-        column_layout.addWidget(labelled_row("Rules", self.presets, self.disclosure))
+        column_layout.addWidget(labelled_row(tr("Rules"), self.presets, self.disclosure))
         column_layout.addWidget(self.details)
         column_layout.addWidget(labelled_row("DLS λ", self.damping, self.damping_value))
 
@@ -161,7 +204,7 @@ class RulesChooser(QWidget):
     def _show(self) -> None:
         preset = self._preset()
         select(self.presets, preset.title if preset else _OWN)
-        self.presets.setToolTip(preset.citation if preset else "Settings of your own")
+        self.presets.setToolTip(preset.citation if preset else tr("Settings of your own"))
         select(self.tasks, self.task)
         for field in _FIELDS:
             factor, suffix = self._unit(field)

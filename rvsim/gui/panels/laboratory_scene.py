@@ -14,6 +14,7 @@ from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.source_002 import Comparison
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.build import arm_items
 from rvsim.scene.palette import ScenePalette
@@ -71,10 +72,17 @@ def iterates_items(iterates: Iterates, palette: ScenePalette) -> tuple[Item, ...
         key = f"{ITERATES_KEY}.{number}"
         items += arm_items(robot, q[number], palette, look="stick", labels=False, key=key, alpha=float(alpha))
     points = forward_kinematics(robot, q)[:, :3, 3]
-    items.append(Triads(f"{ITERATES_KEY}.target", iterates.T[None], _TARGET_AXES * robot.size, letters=False))
-    items.append(Polyline(f"{ITERATES_KEY}.way", points, color, 2.2))
-    items.append(Dots(f"{ITERATES_KEY}.places", points, color, 6.0))
-    items.append(Labels(f"{ITERATES_KEY}.names", _names(iterates, points, palette)))
+    items.append(
+        Triads(
+            tr("{iterates_key}.target", iterates_key=ITERATES_KEY),
+            iterates.T[None],
+            _TARGET_AXES * robot.size,
+            letters=False,
+        )
+    )
+    items.append(Polyline(tr("{iterates_key}.way", iterates_key=ITERATES_KEY), points, color, 2.2))
+    items.append(Dots(tr("{iterates_key}.places", iterates_key=ITERATES_KEY), points, color, 6.0))
+    items.append(Labels(tr("{iterates_key}.names", iterates_key=ITERATES_KEY), _names(iterates, points, palette)))
     return tuple(items)
 
 
@@ -101,13 +109,19 @@ def comparison_items(comparison: Comparison, palette: ScenePalette) -> tuple[Ite
     wrong = _color(look.light, look.dark, palette)
     names = (
         Label(targets[0], "ellipse", palette.text, (10.0, -8.0), 13.0),
-        Label(reached[0], "as printed", palette.text, (10.0, -8.0), 13.0),
+        Label(reached[0], tr("as printed"), palette.text, (10.0, -8.0), 13.0),
     )
     return (
-        Polyline(f"{SOURCE_002_KEY}.ellipse", targets, palette.desired, 2.4),
-        Dots(f"{SOURCE_002_KEY}.printed", reached, wrong, 5.0),
-        Polyline(f"{SOURCE_002_KEY}.gap", np.stack([targets[0], reached[0]]), wrong, 1.6, dashed=True),
-        Labels(f"{SOURCE_002_KEY}.names", names),
+        Polyline(tr("{source_002_key}.ellipse", source_002_key=SOURCE_002_KEY), targets, palette.desired, 2.4),
+        Dots(tr("{source_002_key}.printed", source_002_key=SOURCE_002_KEY), reached, wrong, 5.0),
+        Polyline(
+            tr("{source_002_key}.gap", source_002_key=SOURCE_002_KEY),
+            np.stack([targets[0], reached[0]]),
+            wrong,
+            1.6,
+            dashed=True,
+        ),
+        Labels(tr("{source_002_key}.names", source_002_key=SOURCE_002_KEY), names),
     )
 
 

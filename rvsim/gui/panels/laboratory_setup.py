@@ -15,15 +15,25 @@ from rvsim.gui.session import Session
 from rvsim.gui.widgets import button, combo, select
 from rvsim.kinematics.numeric import AS_IN_SOURCE_002
 from rvsim.lab.laboratory import target_of
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rotation_from_rpy, rpy_from_rotation
 
 _AXES = ("x", "y", "z")
 _ANGLES = ("roll", "pitch", "yaw")
-_TARGETS = {"random": "Random, reachable", "tool": "The tool's pose", "typed": "Typed pose"}
-_STARTS = {"home": "Home", "present": "Present pose", "random": "Random pose", "own": "Own, by the sliders"}
+_TARGETS = {
+    "random": tr_later("Random, reachable"),
+    "tool": tr_later("The tool's pose"),
+    "typed": tr_later("Typed pose"),
+}
+_STARTS = {
+    "home": tr_later("Home"),
+    "present": tr_later("Present pose"),
+    "random": tr_later("Random pose"),
+    "own": tr_later("Own, by the sliders"),
+}
 _SOURCE_002 = "source_002"
-_AGAIN = {"random": "Another", "tool": "Take again", "present": "Take again"}
+_AGAIN = {"random": tr_later("Another"), "tool": tr_later("Take again"), "present": tr_later("Take again")}
 _FIRST_TARGET, _FIRST_START = 6, 1  # numbers of random poses; that target is within reach of most starts
 _LABEL_WIDTH = 48
 
@@ -52,11 +62,13 @@ class Chooser(QWidget):
         super().__init__()
         self._session = session
         self.number = 0  # of the random pose
-        self.choice = combo(f"lab_{name}_selector", f"{title} of the laboratory", choices)
+        self.choice = combo(tr("lab_{name}_selector", name=name), tr("{title} of the laboratory", title=title), choices)
         self.choice.activated.connect(lambda _: self.take(self.choice.currentData()))
-        self.again: QPushButton = button(f"lab_{name}_again_button", "Another", "", self._on_again)
+        self.again: QPushButton = button(tr("lab_{name}_again_button", name=name), tr("Another"), "", self._on_again)
         self.details = QWidget()
-        self.disclosure = Disclosure(f"lab_{name}_details_button", f"the {title.lower()}'s numbers", self.details)
+        self.disclosure = Disclosure(
+            tr("lab_{name}_details_button", name=name), tr("the {lower}'s numbers", lower=title.lower()), self.details
+        )
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
@@ -73,7 +85,7 @@ class Chooser(QWidget):
         select(self.choice, choice)
         self.again.setVisible(choice in _AGAIN)
         self.again.setText(_AGAIN.get(choice, "Another"))
-        self.again.setToolTip("Draw another random pose" if choice == "random" else "Take it as it is now")
+        self.again.setToolTip(tr("Draw another random pose") if choice == "random" else tr("Take it as it is now"))
 
     def _on_again(self) -> None:
         self.number += 1
@@ -84,7 +96,7 @@ class TargetChooser(Chooser):
     """The target: a random pose that can be reached, the tool's own, or a typed one; `T` (4, 4)."""
 
     def __init__(self, session: Session, preferences: Preferences) -> None:
-        super().__init__("target", "Target", _TARGETS, session)
+        super().__init__("target", tr("Target"), _TARGETS, session)
         self.T: FloatArray = np.eye(4)
         self.position = NumberRow("lab_target", _AXES, ("length",) * 3, preferences)
         self.angles = NumberRow("lab_target", _ANGLES, ("angle",) * 3, preferences)
@@ -94,7 +106,7 @@ class TargetChooser(Chooser):
         for row, names in ((self.position, _AXES), (self.angles, _ANGLES)):
             column.addWidget(row)
             for box, name in zip(row.boxes, names, strict=True):
-                box.setAccessibleName(f"Target {name} of the laboratory")
+                box.setAccessibleName(tr("Target {name} of the laboratory", name=name))
                 box.quantity_changed.connect(lambda _, turned=name in _ANGLES: self._on_typed(turned))
                 box.refused.connect(session.warn)
         self.show_robot()
@@ -136,7 +148,7 @@ class StartChooser(Chooser):
     """The start: home, the present pose, a random one, or own values by sliders; `q0` (n,) [rad, m]."""
 
     def __init__(self, session: Session, preferences: Preferences) -> None:
-        super().__init__("start", "Start", _STARTS, session)
+        super().__init__("start", tr("Start"), _STARTS, session)
         self._preferences = preferences
         self.q0: FloatArray = session.robot.home
         self.joints: list[StartJoint] = []
@@ -166,7 +178,7 @@ class StartChooser(Chooser):
             known = self.choice.findData(_SOURCE_002)
             fits = AS_IN_SOURCE_002.guess is not None and len(AS_IN_SOURCE_002.guess) == self._session.robot.dof
             if fits and known < 0:
-                self.choice.addItem("Guess of source 002", _SOURCE_002)
+                self.choice.addItem(tr("Guess of source 002"), _SOURCE_002)
             elif known >= 0 and not fits:
                 self.choice.removeItem(known)
 

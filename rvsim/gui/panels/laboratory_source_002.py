@@ -17,17 +17,20 @@ from rvsim.gui.widgets import column_of, scrolled
 from rvsim.gui.workers import LatestWorker
 from rvsim.lab.laboratory import SOURCE_002_READING, source_002_sentence
 from rvsim.lab.source_002 import Comparison, compare_source_002
+from rvsim.language import tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.gui.panels.laboratory_plot import LogPlot
 
 _ARM = "ur5e"
-_POINTS = "point of the ellipse"
-_INTRODUCTION = (
+_POINTS = tr_later("point of the ellipse")
+_INTRODUCTION = tr_later(
     "The source leads a UR5e along an ellipse of 184 points by Newton–Raphson, position only. Below, how far the real "
     "arm is from each point with the angles that the printed program finds, and with the same algorithm put right."
 )
-_IN_SCENE = "Drawn in the scene while the UR5e is the present arm: the ellipse, and where the printed program leads."
+_IN_SCENE = tr_later(
+    "Drawn in the scene while the UR5e is the present arm: the ellipse, and where the printed program leads."
+)
 
 
 class Source002Page(Page):
@@ -46,7 +49,7 @@ class Source002Page(Page):
         self.plot: LogPlot | None = None
         self._worker = LatestWorker(self)
         self._worker.done.connect(self._on_done)
-        self.sentence = _text("Working it out…")
+        self.sentence = _text(tr("Working it out…"))
         self.sentence.setObjectName("lab_source_002_sentence")
         self.legend = Legend(SOURCE_002_LOOKS, preferences)
         self._inside = QWidget()
@@ -88,7 +91,7 @@ class Source002Page(Page):
         units = shown_units(self._preferences)
         factor = 1.0 if units.length == "mm" else 1e-3
         self.sentence.setText(source_002_sentence(self.comparison, units))
-        self.plot.set_titles(_POINTS, f"off by, {units.length}")
+        self.plot.set_titles(_POINTS, tr("off by, {length}", length=units.length))
         curves = {
             "printed": printed.deviations,
             "believed": printed.believed_deviations,

@@ -13,17 +13,18 @@ from rvsim.gui.panels.tables import LEFT, RIGHT, Index, fit_height, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_scientific, length_kind, shown_units
 from rvsim.lab.laboratory import Contest, Outcome, verdict
+from rvsim.language import tr, tr_later
 
 _TOP = QModelIndex()
 _HEADS = ("solver", "ok", "iter.", "ms", "", "", "verdict")
 _TIPS = (
-    "The solver; point at a row to see its iterates in the scene",
-    "Whether every tolerance is kept",
-    "Iterations, of all tries together",
-    "Time in milliseconds",
-    "Position error of the result",
-    "Rotation error of the result",
-    "Why it ended",
+    tr_later("The solver; point at a row to see its iterates in the scene"),
+    tr_later("Whether every tolerance is kept"),
+    tr_later("Iterations, of all tries together"),
+    tr_later("Time in milliseconds"),
+    tr_later("Position error of the result"),
+    tr_later("Rotation error of the result"),
+    tr_later("Why it ended"),
 )
 _VERDICT = len(_HEADS) - 1
 _ROOM_FOR_VERDICT = 500
@@ -99,7 +100,7 @@ class ContestModel(QAbstractTableModel):
         if role != Qt.ItemDataRole.DisplayRole:
             return None
         place, turn = self._units()
-        return {4: f"pos. {place[1]}", 5: f"rot. {turn[1]}"}.get(section, _HEADS[section])
+        return {4: tr("pos. {place}", place=place[1]), 5: tr("rot. {turn}", turn=turn[1])}.get(section, _HEADS[section])
 
 
 def _milliseconds(seconds: float) -> str:
@@ -121,7 +122,7 @@ class ContestTable(QTableView):
         super().__init__(parent)
         self._compact = False
         self.setObjectName("lab_table")
-        self.setAccessibleName("Solvers")
+        self.setAccessibleName(tr("Solvers"))
         self.setModel(model)
         self.setShowGrid(False)
         self.setAlternatingRowColors(True)
@@ -145,7 +146,7 @@ class ContestTable(QTableView):
         metrics = text_metrics()
         roomy = self.width() >= _ROOM_FOR_VERDICT
         self.setColumnHidden(_VERDICT, not roomy)
-        texts = ("Newton", "✓", "1500", "88.8", "8.8e−88", "8.8e−88")
+        texts = (tr("Newton"), "✓", "1500", "88.8", "8.8e−88", "8.8e−88")
         for column, text in enumerate(texts):
             head = str(self.model().headerData(column, Qt.Orientation.Horizontal))
             width = max(metrics.horizontalAdvance(text), metrics.horizontalAdvance(head))

@@ -18,6 +18,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import ElidedLabel, column_of, scrolled
 from rvsim.kinematics import joint_transforms, link_transforms
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
+from rvsim.language import tr, tr_later
 from rvsim.robot import Convention, Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -29,8 +30,8 @@ _FACTORS: Mapping[Convention, tuple[tuple[str, int, str], ...]] = {
     "modified": (("Rx", 3, "α"), ("Tx", 2, "a"), ("Tz", 1, "d"), ("Rz", 0, "θ")),
 }
 CONVENTIONS: Mapping[Convention, str] = {
-    "standard": "standard DH: A = Rz · Tz · Tx · Rx",
-    "modified": "modified DH (Craig): A = Rx · Tx · Tz · Rz, with a and α of the link before",
+    "standard": tr_later("standard DH: A = Rz · Tz · Tx · Rx"),
+    "modified": tr_later("modified DH (Craig): A = Rx · Tx · Tz · Rz, with a and α of the link before"),
 }
 
 
@@ -121,7 +122,13 @@ class TransformSection(QWidget):
         """With a line that says the unit, commented out as the format wants it."""
         unit = display(length_kind(self._session.robot), self._preferences).suffix.strip()
         mark = {"NumPy": "# ", "LaTeX": "% "}.get(label, "")
-        return f"{mark}{plain_digits(self.title.text())}, lengths in {unit}\n{text}"
+        return tr(
+            "{mark}{plain_digits}, lengths in {unit}\n{text}",
+            mark=mark,
+            plain_digits=plain_digits(self.title.text()),
+            unit=unit,
+            text=text,
+        )
 
 
 class MatricesPanel(ReadOutPanel):
@@ -135,10 +142,10 @@ class MatricesPanel(ReadOutPanel):
         self._steps.idClicked.connect(lambda _step: self.refresh())
         self._row = QHBoxLayout()
         self._row.setSpacing(2)
-        self.link = TransformSection("link", "link transform", session, preferences)
-        self.product = TransformSection("product", "running product", session, preferences)
+        self.link = TransformSection("link", tr("link transform"), session, preferences)
+        self.product = TransformSection("product", tr("running product"), session, preferences)
         self._lay_out()
-        for key, by in (("Left", -1), ("Right", 1)):
+        for key, by in ((tr("Left"), -1), (tr("Right"), 1)):
             shortcut = QShortcut(QKeySequence(key), self)
             shortcut.setContext(shortcut.context().WidgetWithChildrenShortcut)
             shortcut.activated.connect(lambda by=by: self.step(by))
@@ -179,8 +186,8 @@ class MatricesPanel(ReadOutPanel):
         if step == robot.dof + 1:
             self._show_tool(robot, products[-1])
         elif step == 0:
-            self.link.show_transform("⁰T base, where the first frame stands", robot.T_base_0, "", "")
-            self.product.show_transform("Running product", products[0], "", "")
+            self.link.show_transform(tr("⁰T base, where the first frame stands"), robot.T_base_0, "", "")
+            self.product.show_transform(tr("Running product"), products[0], "", "")
         else:
             self._show_joint(robot, step, joint_transforms(robot, q)[step - 1], products[step])
 
@@ -195,9 +202,9 @@ class MatricesPanel(ReadOutPanel):
         self.product.show_transform(f"⁰T{subscript(joint)} = {based}{product}", T, "", "")
 
     def _show_tool(self, robot: Robot, flange: FloatArray) -> None:
-        self.link.show_transform("T tool, from the flange", robot.T_flange_tool, robot.tool.title, "")
+        self.link.show_transform(tr("T tool, from the flange"), robot.T_flange_tool, robot.tool.title, "")
         self.product.show_transform(
-            f"⁰T tool = ⁰T{subscript(robot.dof)} · T tool", flange @ robot.T_flange_tool, "", ""
+            tr("⁰T tool = ⁰T{subscript} · T tool", subscript=subscript(robot.dof)), flange @ robot.T_flange_tool, "", ""
         )
 
     def _offer(self, robot: Robot) -> None:
@@ -219,9 +226,9 @@ class MatricesPanel(ReadOutPanel):
         button.setText(text)
         button.setCheckable(True)
         button.setObjectName(f"matrix_step_{step}")
-        name = f"joint {step}" if 0 < step <= robot.dof else text
-        button.setAccessibleName(f"Transform of {name}")
-        button.setToolTip(f"Show the transform of {name} (left and right arrows step)")
+        name = tr("joint {step}", step=step) if 0 < step <= robot.dof else text
+        button.setAccessibleName(tr("Transform of {name}", name=name))
+        button.setToolTip(tr("Show the transform of {name} (left and right arrows step)", name=name))
         self._steps.addButton(button, step)
         return button
 

@@ -12,6 +12,7 @@ from rvsim.gui.panels.list_box import ListBox
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, half_turn_up
 from rvsim.gui.theme import set_role
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 
 _LARGEST = 1e9
@@ -36,7 +37,7 @@ class NumberRow(QWidget):
         names: tuple[str, ...],
         kinds: tuple[Kind, ...],
         preferences: Preferences,
-        title: str = "Tool",
+        title: str = tr_later("Tool"),
         hint: str = "",
     ) -> None:
         super().__init__()
@@ -85,8 +86,14 @@ class NumberRow(QWidget):
         """Take all the numbers [shown units], given to the box of that index."""
         box = self.boxes[index]
         if len(values) != len(self.boxes) or not all(abs(value) <= _LARGEST for value in values):
-            wanted = f"{len(self.boxes)} numbers: {', '.join(self._names)}"
-            box.refused.emit(f"{self._title}: not taken, for here one number can be given, or {wanted}.")
+            wanted = tr("{count} numbers: {names}", count=len(self.boxes), names=", ".join(self._names))
+            box.refused.emit(
+                tr(
+                    "{title}: not taken, for here one number can be given, or {wanted}.",
+                    title=self._title,
+                    wanted=wanted,
+                )
+            )
             return
         for each, value in zip(self.boxes, values, strict=True):
             each.set_quantity(value / each.shown.factor)

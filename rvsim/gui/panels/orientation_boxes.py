@@ -10,6 +10,7 @@ from rvsim.gui.orientations import NOTATIONS
 from rvsim.gui.panels.number_row import NumberRow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_number
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 
 _SAME = 1e-9  # entries of a rotation so close are the same one
@@ -113,7 +114,9 @@ class OrientationBoxes(QWidget):
         length = float(np.linalg.norm(direction))
         if direction.size and abs(length - 1.0) > 5e-4:
             taken = ", ".join(format_number(number, 4) for number in (direction / length).tolist())
-            self.told.emit(f"Length {format_number(length, 4)}, taken as {taken}.")
+            self.told.emit(
+                tr("Length {format_number}, taken as {taken}.", format_number=format_number(length, 4), taken=taken)
+            )
 
     def _on_finished(self) -> None:
         self.finished.emit()

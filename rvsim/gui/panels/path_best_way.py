@@ -15,17 +15,18 @@ from rvsim.gui.quantities import format_quantity, joint_kind, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.widgets import button, combo, select
 from rvsim.kinematics import forward_kinematics
+from rvsim.language import tr, tr_later
 from rvsim.motion.best_way import Criterion, Way, best_ways
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_CRITERIA = {"quickest": "Quickest", "least motion": "Least motion"}
-_HOME, _TARGET = "Home", "The tool's target"
+_CRITERIA = {"quickest": tr_later("Quickest"), "least motion": tr_later("Least motion")}
+_HOME, _TARGET = tr_later("Home"), tr_later("The tool's target")
 _HEADS = (
-    ("branch", "The branch of the inverse kinematics at the end"),
-    ("s", "Time of the quickest law, in seconds"),
-    ("motion", "Length of the way of all joints together; a slide across the arm counts as half a turn"),
-    ("clear", "The least distance from the table and from itself on the way; ✗ where they meet"),
+    ("branch", tr_later("The branch of the inverse kinematics at the end")),
+    ("s", tr_later("Time of the quickest law, in seconds")),
+    ("motion", tr_later("Length of the way of all joints together; a slide across the arm counts as half a turn")),
+    ("clear", tr_later("The least distance from the table and from itself on the way; ✗ where they meet")),
 )
 
 
@@ -33,18 +34,18 @@ class BestWaySection(QGroupBox):
     """Works when it is asked: "Find" fills the table, "Go" plays the chosen row."""
 
     def __init__(self, session: Session, preferences: Preferences, motion: MotionControl) -> None:
-        super().__init__("Best way to")
+        super().__init__(tr("Best way to"))
         self._session, self._preferences, self._motion = session, preferences, motion
         self.ways: tuple[Way, ...] = ()
         self._robot: Robot | None = None
         self._name = ""
-        self.target = combo("best_way_target", "Where the arm is to go")
-        self.criterion = combo("best_way_criterion", "What is best", _CRITERIA)
+        self.target = combo("best_way_target", tr("Where the arm is to go"))
+        self.criterion = combo("best_way_criterion", tr("What is best"), _CRITERIA)
         self.criterion.activated.connect(lambda _: self.search())
-        self.find_button = button("best_way_find", "Find", "Try every branch and every time law", self.search)
-        self.go_button = button("best_way_go", "Go", "Go the chosen way; one undo step leads back", self.go)
+        self.find_button = button("best_way_find", tr("Find"), tr("Try every branch and every time law"), self.search)
+        self.go_button = button("best_way_go", "Go", tr("Go the chosen way; one undo step leads back"), self.go)
         self.model = RowsModel(_HEADS)
-        self.table = rows_table("best_way_table", "Ways", self.model)
+        self.table = rows_table("best_way_table", tr("Ways"), self.model)
         self.table.selectionModel().currentRowChanged.connect(lambda *_: self._tell())
         self.sentence = wrapped_label()
         self.sentence.setObjectName("best_way_sentence")
@@ -95,7 +96,7 @@ class BestWaySection(QGroupBox):
             return
         self._show()
         if not self.ways:
-            self.sentence.setText("The arm cannot be there in any branch.")
+            self.sentence.setText(tr("The arm cannot be there in any branch."))
         elif self.ways[0].possible:
             self.table.selectRow(0)
 
@@ -113,7 +114,7 @@ class BestWaySection(QGroupBox):
         self.refresh()  # the key that asks may come while the page lies behind others and has not looked since
         way = self._chosen()
         if way is not None and way.possible:
-            self._motion.load(way.moves[way.law], f"Best way to {self._name}")
+            self._motion.load(way.moves[way.law], tr("Best way to {name}", name=self._name))
             self._motion.play()
 
     def _chosen(self) -> Way | None:
@@ -150,7 +151,11 @@ class BestWaySection(QGroupBox):
         if way.margin_joint is not None:
             robot = self._session.robot
             number = format_quantity(way.margin, joint_kind(robot, way.margin_joint), self._preferences)
-            margin = f" At the end {robot.joint_names[way.margin_joint]} is {number} before its limit."
+            margin = tr(
+                " At the end {joint_names} is {number} before its limit.",
+                joint_names=robot.joint_names[way.margin_joint],
+                number=number,
+            )
         return f"{way.label[:1].upper()}{way.label[1:]}: {laws}.{margin}"
 
 

@@ -19,15 +19,18 @@ from rvsim.gui.theme import THEMES, set_role
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import column_of, scrolled
 from rvsim.lab.findings import SYMBOLS, summary_sentence
+from rvsim.language import tr, tr_later
 from rvsim.motion.honesty import Report
 
-_EMPTY = "Track a line or a trajectory on the Path page: here is told what it asks of the arm before it moves."
+_EMPTY = tr_later(
+    "Track a line or a trajectory on the Path page: here is told what it asks of the arm before it moves."
+)
 
 
 class CheckPage(PathPage):
     """Checks the tracking when it is another one; looks for repairs beside the window."""
 
-    title = "Check"
+    title = tr_later("Check")
     name = "path_check"
 
     def __init__(
@@ -62,7 +65,7 @@ class CheckPage(PathPage):
         self.best_way = BestWaySection(self._session, self._preferences, self._motion)
 
     def _lay_out(self) -> None:
-        self.repair_box = QGroupBox("Repairs that were tried")
+        self.repair_box = QGroupBox(tr("Repairs that were tried"))
         self.repair_box.hide()
         column_of(self.repair_box, self.repairs)
         inside = QWidget()
@@ -105,6 +108,6 @@ class CheckPage(PathPage):
         if time is None:
             return
         if self._motion.player.trajectory is not self._search.trajectory:
-            self._motion.load(self._search.trajectory, "Show a finding")
+            self._motion.load(self._search.trajectory, tr("Show a finding"))
         self._motion.pause()
         self._motion.seek(time)

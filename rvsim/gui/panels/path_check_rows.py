@@ -10,9 +10,10 @@ from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.theme import Theme, set_role
 from rvsim.lab.findings import SYMBOLS, WORDS, finding_sentence
 from rvsim.lab.sentences import Units
+from rvsim.language import tr, tr_later
 from rvsim.motion.honesty import Finding, Report, Severity
 
-_SAID: dict[Severity, str] = {"good": "good", "warning": "mind this", "bad": "wrong"}
+_SAID: dict[Severity, str] = {"good": "good", "warning": tr_later("mind this"), "bad": "wrong"}
 
 
 def severity_color(severity: Severity, theme: Theme) -> str:
@@ -49,7 +50,7 @@ class FindingRow(QFrame):
         text = finding_sentence(report, finding, units)
         self.sentence.setText(text)
         self.setAccessibleName(f"{self.word.text()}. {text}")
-        self.setToolTip("Click to see the arm there" if self._goes else "")
+        self.setToolTip(tr("Click to see the arm there") if self._goes else "")
         self.setCursor(Qt.CursorShape.PointingHandCursor if self._goes else Qt.CursorShape.ArrowCursor)
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus if self._goes else Qt.FocusPolicy.NoFocus)
 

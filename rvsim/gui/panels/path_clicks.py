@@ -12,14 +12,15 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import length_kind
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.widgets import button, combo, select
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.work_plane import WorkPlane
 
 _PLANES = {
-    2: ("Level, z", "A level plane at this height above the base"),
-    0: ("Upright facing, x", "An upright plane that faces the arm, so far before the base"),
-    1: ("Upright sideways, y", "An upright plane straight ahead, so far beside the base"),
+    2: (tr_later("Level, z"), tr_later("A level plane at this height above the base")),
+    0: (tr_later("Upright facing, x"), tr_later("An upright plane that faces the arm, so far before the base")),
+    1: (tr_later("Upright sideways, y"), tr_later("An upright plane straight ahead, so far beside the base")),
 }
 
 
@@ -40,17 +41,17 @@ class ClickRows(QWidget):
         self._near: FloatArray = np.zeros(3)  # the place of the chosen point
         self.button = button(
             "points_click",
-            "Click points in the scene",
-            "Each click in the scene adds a point on the plane below; a drag still turns the view. Esc ends it.",
+            tr("Click points in the scene"),
+            tr("Each click in the scene adds a point on the plane below; a drag still turns the view. Esc ends it."),
             self._switch,
         )
         self.button.setCheckable(True)
-        self.choice = combo("points_plane", "The plane that clicks put points on", {})
+        self.choice = combo("points_plane", tr("The plane that clicks put points on"), {})
         for index, (axis, (title, tip)) in enumerate(_PLANES.items()):
             self.choice.addItem(title, axis)
             self.choice.setItemData(index, tip, Qt.ItemDataRole.ToolTipRole)
         self.choice.activated.connect(lambda _: self._on_axis(self.choice.currentData()))
-        self.offset = QuantityBox(length_kind(robot), preferences, "Where the working plane lies")
+        self.offset = QuantityBox(length_kind(robot), preferences, tr("Where the working plane lies"))
         self.offset.setObjectName("points_offset")
         self.offset.quantity_changed.connect(lambda value: self._lay(WorkPlane(self._clicks.plane.axis, value)))
         self.offset.refused.connect(self.refused)

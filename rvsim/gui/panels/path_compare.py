@@ -24,15 +24,16 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import button, column_of, scrolled
 from rvsim.lab.repairs import path_of
+from rvsim.language import tr, tr_later
 from rvsim.motion import Path
 from rvsim.motion.compare import Entry, comparison
 from rvsim.robot import Robot
 
-_INTRO = (
+_INTRO = tr_later(
     "The path of the Path page by the closed form with the best sequence of branches, and by each numeric solver, "
     "started at every point in its last solution. Source 000 sets out to compare these."
 )
-_SHORT = {"closed form": "Closed", "newton": "Newton", "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
+_SHORT = {"closed form": tr_later("Closed"), "newton": tr_later("Newton"), "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
 _COPY_HEADS = (
     "method", "total_s", "per_point_s", "rms_m", "largest_m", "largest_rotation_rad", "success", "jumps", "iterations",
 )  # fmt: skip
@@ -41,7 +42,7 @@ _COPY_HEADS = (
 class ComparePage(PathPage):
     """A button, a table that fills row by row, and what the rows mean."""
 
-    title = "Compare"
+    title = tr_later("Compare")
     name = "path_compare"
 
     def __init__(
@@ -75,10 +76,12 @@ class ComparePage(PathPage):
         self.worker.close()
 
     def _make_widgets(self) -> None:
-        self.table = rows_table("compare_table", "Methods", self.model)
-        tip = "Track the present path by every method; it takes about a second for a few hundred points"
-        self.run_button = button("compare_run_button", "Compare", tip, self.start, primary=True)
-        self.cancel_button = button("compare_cancel_button", "Cancel", "Give up; the old table stays", self.cancel)
+        self.table = rows_table("compare_table", tr("Methods"), self.model)
+        tip = tr("Track the present path by every method; it takes about a second for a few hundred points")
+        self.run_button = button("compare_run_button", tr("Compare"), tip, self.start, primary=True)
+        self.cancel_button = button(
+            "compare_cancel_button", tr("Cancel"), tr("Give up; the old table stays"), self.cancel
+        )
         self.progress = QProgressBar()
         self.progress.setObjectName("compare_progress")
         self.progress.setTextVisible(False)
@@ -87,7 +90,7 @@ class ComparePage(PathPage):
         self.intro.setText(_INTRO)
         self.verdict.setObjectName("compare_verdict")
         formats = {"text": partial(self._copied, as_text), "CSV": partial(self._copied, as_csv)}
-        self.copy = CopyButton("compare_copy", "the comparison", formats, self._session)
+        self.copy = CopyButton("compare_copy", tr("the comparison"), formats, self._session)
 
     def _lay_out(self) -> None:
         inside = QWidget()
@@ -95,7 +98,7 @@ class ComparePage(PathPage):
         column.setContentsMargins(10, 8, 10, 8)
         column.setSpacing(8)
         column.addWidget(self.deviation)
-        methods = QLabel("Methods")
+        methods = QLabel(tr("Methods"))
         set_role(methods, role="title")
         column.addWidget(methods)
         column.addWidget(self.intro)
@@ -184,27 +187,37 @@ class ComparePage(PathPage):
     def _heads(self, robot: Robot) -> tuple[tuple[str, str], ...]:
         unit = display(length_kind(robot), self._preferences).suffix.strip()
         return (
-            ("method", "The closed form, or the numeric solver"),
-            ("ms", "Time for all points, in milliseconds"),
-            ("µs", "Time for a point, in microseconds"),
-            (f"max {unit}", "The largest position error over the points found"),
-            ("found", "For how many of the points joints were found"),
-            ("jumps", "How often the arm leaves the path to change its branch"),
+            ("method", tr("The closed form, or the numeric solver")),
+            ("ms", tr("Time for all points, in milliseconds")),
+            ("µs", tr("Time for a point, in microseconds")),
+            (tr("max {unit}", unit=unit), tr("The largest position error over the points found")),
+            ("found", tr("For how many of the points joints were found")),
+            ("jumps", tr("How often the arm leaves the path to change its branch")),
         )
 
     def _verdict(self) -> str:
         """Who is how much quicker, and of which path and arm the table is."""
         assert self._of is not None
         robot, path = self._of
-        what = f"{robot.title}, {path.title or path.name}, {path.samples} points."
+        what = tr(
+            "{title}, {value}, {samples} points.",
+            title=robot.title,
+            value=path.title or path.name,
+            samples=path.samples,
+        )
         closed = [entry for entry in self.entries if entry.contestant.solver is None]
         others = [entry for entry in self.entries if entry.contestant.solver is not None]
         if not closed or not others or closed[0].seconds <= 0.0:
-            return f"{what} This arm has no closed form."
+            return tr("{what} This arm has no closed form.", what=what)
         nearest = min(others, key=lambda entry: entry.seconds)
         times = nearest.seconds / closed[0].seconds
         name = nearest.contestant.title
-        return f"{what} The closed form is {times:.3g} times as quick as the quickest of the others ({name})."
+        return tr(
+            "{what} The closed form is {times:.3g} times as quick as the quickest of the others ({name}).",
+            what=what,
+            times=times,
+            name=name,
+        )
 
     def _copied(self, form: object) -> str:
         assert callable(form)
@@ -224,9 +237,20 @@ def _texts(entry: Entry, factor: float) -> tuple[str, ...]:
 
 
 def _tip(entry: Entry) -> str:
-    tried = "" if entry.iterations is None else f", {entry.iterations} iterations in all"
-    turned = "" if math.isnan(entry.largest_rotation) else f"; orientation within {entry.largest_rotation:.1e} rad"
-    return f"{entry.contestant.title}{tried}: RMS {entry.rms:.1e} m, at most {entry.largest:.1e} m{turned}."
+    tried = "" if entry.iterations is None else tr(", {iterations} iterations in all", iterations=entry.iterations)
+    turned = (
+        ""
+        if math.isnan(entry.largest_rotation)
+        else tr("; orientation within {largest_rotation:.1e} rad", largest_rotation=entry.largest_rotation)
+    )
+    return tr(
+        "{title}{tried}: RMS {rms:.1e} m, at most {largest:.1e} m{turned}.",
+        title=entry.contestant.title,
+        tried=tried,
+        rms=entry.rms,
+        largest=entry.largest,
+        turned=turned,
+    )
 
 
 def _exact(entry: Entry) -> tuple[str, ...]:

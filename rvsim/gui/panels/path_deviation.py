@@ -18,6 +18,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_scientific, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.widgets import button, combo
+from rvsim.language import tr, tr_later
 from rvsim.motion import Tracking, Trajectory
 from rvsim.motion.between import OffPath, off_at_points, off_between, ways_off_path
 from rvsim.motion.honesty import time_of_index
@@ -25,15 +26,15 @@ from rvsim.scene.palette import ScenePalette
 from rvsim.scene.paths import deviation_items
 from rvsim.scene.primitives import Item
 
-_EMPTY = "Track a line or a trajectory on the Track page: here is told how far the tool is off it."
-_NO_WAY = "No two neighbouring points are reached: there is no way between them."
-_WHERE = {"between": "On the whole way", "points": "At the points"}
+_EMPTY = tr_later("Track a line or a trajectory on the Track page: here is told how far the tool is off it.")
+_NO_WAY = tr_later("No two neighbouring points are reached: there is no way between them.")
+_WHERE = {"between": tr_later("On the whole way"), "points": tr_later("At the points")}
 _TIMES = {
-    "1": "Drawn as it is",
-    "10": "Drawn 10 ×",
-    "100": "Drawn 100 ×",
-    "1000": "Drawn 1000 ×",
-    "10000": "Drawn 10,000 ×",
+    "1": tr_later("Drawn as it is"),
+    "10": tr_later("Drawn 10 ×"),
+    "100": tr_later("Drawn 100 ×"),
+    "1000": tr_later("Drawn 1000 ×"),
+    "10000": tr_later("Drawn 10,000 ×"),
 }
 _ROWS = ("x", "y", "z", "all")
 _COPY_HEADS = ("axis", "rms_m", "mean_m", "largest_m")
@@ -49,22 +50,22 @@ class DeviationSection(QGroupBox):
     chosen = Signal()
 
     def __init__(self, session: Session, preferences: Preferences, motion: MotionControl) -> None:
-        super().__init__("Asked and done")
+        super().__init__(tr("Asked and done"))
         self._session, self._preferences, self._motion = session, preferences, motion
         self._measured: tuple[Tracking, Trajectory | None, OffPath] | None = None
-        self.where = combo("deviation_where", "Where the deviation is measured", _WHERE)
-        self.times = combo("deviation_times", "How the deviation is drawn in the scene", _TIMES)
+        self.where = combo("deviation_where", tr("Where the deviation is measured"), _WHERE)
+        self.times = combo("deviation_times", tr("How the deviation is drawn in the scene"), _TIMES)
         self.model = RowsModel(self._heads())
-        self.table = rows_table("deviation_table", "Deviation along each axis", self.model)
+        self.table = rows_table("deviation_table", tr("Deviation along each axis"), self.model)
         self.told = wrapped_label()
         self.told.setObjectName("deviation_sentence")
         self.solved = wrapped_label("muted")
         self.solved.setObjectName("deviation_solved")
-        tip = "Show the moment at which the tool is the farthest off"
-        self.worst = button("deviation_worst", "Go to the largest", tip, self.go_to_worst)
-        self.curves = button("deviation_curves", "Curves", "Plot the deviation over time", self._show_curves)
+        tip = tr("Show the moment at which the tool is the farthest off")
+        self.worst = button("deviation_worst", tr("Go to the largest"), tip, self.go_to_worst)
+        self.curves = button("deviation_curves", tr("Curves"), tr("Plot the deviation over time"), self._show_curves)
         formats = {"text": partial(self._copied, as_text), "CSV": partial(self._copied, as_csv)}
-        self.copy = CopyButton("deviation_copy", "the deviation", formats, session)
+        self.copy = CopyButton("deviation_copy", tr("the deviation"), formats, session)
         for box in (self.where, self.times):
             box.activated.connect(lambda _: self.chosen.emit())
         self._lay_out()
@@ -124,9 +125,14 @@ class DeviationSection(QGroupBox):
         tracking, trajectory, _ = self._moving
         entries = []
         if ways_off_path(trajectory, tracking):
-            entries.append(Entry(palette.actual, "off the path on purpose", dashed=True))
+            entries.append(Entry(palette.actual, tr("off the path on purpose"), dashed=True))
         if self.times.currentData() != "1":
-            entries.append(Entry(palette.limit, f"deviation {self.times.currentText().removeprefix('Drawn ')}"))
+            entries.append(
+                Entry(
+                    palette.limit,
+                    tr("deviation {removeprefix}", removeprefix=self.times.currentText().removeprefix("Drawn ")),
+                )
+            )
         return tuple(entries)
 
     def go_to_worst(self) -> None:
@@ -135,7 +141,7 @@ class DeviationSection(QGroupBox):
             return
         _, trajectory, off = self._moving
         if self._motion.player.trajectory is not trajectory:
-            self._motion.load(trajectory, "Show the deviation")
+            self._motion.load(trajectory, tr("Show the deviation"))
         self._motion.pause()
         self._motion.seek(time_of_index(trajectory, off.worst or 0.0))
 
@@ -144,10 +150,10 @@ class DeviationSection(QGroupBox):
     def _heads(self) -> tuple[tuple[str, str], ...]:
         unit = display(length_kind(self._session.robot), self._preferences).suffix.strip()
         return (
-            ("", "The axis of the base"),
-            (f"RMS {unit}", "The root of the mean square"),
-            (f"mean {unit}", "Along an axis with its sign, of all the mean distance"),
-            (f"largest {unit}", "The largest without its sign"),
+            ("", tr("The axis of the base")),
+            (f"RMS {unit}", tr("The root of the mean square")),
+            (tr("mean {unit}", unit=unit), tr("Along an axis with its sign, of all the mean distance")),
+            (tr("largest {unit}", unit=unit), tr("The largest without its sign")),
         )
 
     def _show(self) -> None:
@@ -173,16 +179,29 @@ class DeviationSection(QGroupBox):
         if off.worst is None:
             return _NO_WAY
         before = math.floor(off.worst) + 1
-        place = f"at point {before}" if off.worst % 1.0 == 0.0 else f"between points {before} and {before + 1}"
-        missed = "" if tracking.complete else f" {tracking.samples - tracking.reached_count} points are missed."
-        return f"Largest {place}.{missed}"
+        place = (
+            tr("at point {before}", before=before)
+            if off.worst % 1.0 == 0.0
+            else tr("between points {before} and {before2}", before=before, before2=before + 1)
+        )
+        missed = (
+            ""
+            if tracking.complete
+            else tr(" {samples} points are missed.", samples=tracking.samples - tracking.reached_count)
+        )
+        return tr("Largest {place}.{missed}", place=place, missed=missed)
 
     def _solved(self) -> str:
         if self._measured is None:
             return ""
         tracking = self._measured[0]
         total, each = 1e3 * tracking.solve_seconds, 1e6 * tracking.seconds_per_point
-        return f"Inverse kinematics: {total:.2f} ms for {tracking.samples} points, {each:.1f} µs a point."
+        return tr(
+            "Inverse kinematics: {total:.2f} ms for {samples} points, {each:.1f} µs a point.",
+            total=total,
+            samples=tracking.samples,
+            each=each,
+        )
 
     def _show_curves(self) -> None:
         """The plots, with this one among them."""

@@ -18,13 +18,14 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import button, combo, form, select
 from rvsim.lab.lines import LinePreset, line_presets
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.edits import original_name
 
 LINE_ORIENTATIONS = {
-    "down": "Tool straight down",
-    "free": "Free pitch: it tilts as it likes",
-    "keep": "Tool as it is now",
+    "down": tr_later("Tool straight down"),
+    "free": tr_later("Free pitch: it tilts as it likes"),
+    "keep": tr_later("Tool as it is now"),
 }
 _AXES = ("x", "y", "z")
 
@@ -33,33 +34,35 @@ class LineSection(QGroupBox):
     """Start, end, step, the tool's orientation, and Track line."""
 
     def __init__(self, session: Session, preferences: Preferences, tracker: PathTracker) -> None:
-        super().__init__("Line")
+        super().__init__(tr("Line"))
         self._session = session
         self._known_presets: dict[str, tuple[LinePreset, ...]] = {}
-        self.presets = combo("line_preset", "Line presets")
+        self.presets = combo("line_preset", tr("Line presets"))
         self.presets.activated.connect(self._on_preset)
         self.boxes = {end: [self._box(end, axis, preferences) for axis in _AXES] for end in ("start", "end")}
-        self.resolution = QuantityBox("number", preferences, "Step as a fraction of the line")
+        self.resolution = QuantityBox("number", preferences, tr("Step as a fraction of the line"))
         self.resolution.setObjectName("line_resolution")
-        self.resolution.set_range(0.001, 1.0, "1 gives the two ends alone, 0.001 a thousand pieces.")
-        self.resolution.quantity_changed.connect(lambda value: self._edit("line step", "line step", resolution=value))
+        self.resolution.set_range(0.001, 1.0, tr("1 gives the two ends alone, 0.001 a thousand pieces."))
+        self.resolution.quantity_changed.connect(
+            lambda value: self._edit(tr("line step"), tr("line step"), resolution=value)
+        )
         self.resolution.refused.connect(session.warn)
         self.resolution.editingFinished.connect(session.end_stroke)
         self.samples = QSpinBox()
         self.samples.setObjectName("line_points")
-        self.samples.setAccessibleName("Number of points on the line")
+        self.samples.setAccessibleName(tr("Number of points on the line"))
         self.samples.setRange(2, 1001)
         self.samples.setKeyboardTracking(False)
         self.samples.setSuffix(" points")
-        self.samples.valueChanged.connect(lambda count: self._edit("line step", resolution=1.0 / (count - 1)))
-        self.orientation = combo("line_orientation", "Tool orientation along the line", LINE_ORIENTATIONS)
+        self.samples.valueChanged.connect(lambda count: self._edit(tr("line step"), resolution=1.0 / (count - 1)))
+        self.orientation = combo("line_orientation", tr("Tool orientation along the line"), LINE_ORIENTATIONS)
         self.orientation.activated.connect(lambda _: self._on_orientation(self.orientation.currentData()))
-        tip = "Solve the line and move the tool along it (Ctrl+L)"
-        self.button = button("track_line_button", "Track line", tip, tracker.track_line, primary=True)
+        tip = tr("Solve the line and move the tool along it (Ctrl+L)")
+        self.button = button("track_line_button", tr("Track line"), tip, tracker.track_line, primary=True)
         self._lay_out()
 
     def _box(self, end: str, axis: str, preferences: Preferences) -> QuantityBox:
-        box = QuantityBox("length", preferences, f"Line {end} {axis}")
+        box = QuantityBox("length", preferences, tr("Line {end} {axis}", end=end, axis=axis))
         box.setObjectName(f"line_{end}_{axis}")
         box.setMinimumWidth(84)
         box.quantity_changed.connect(lambda _: self._on_point(end))
@@ -83,10 +86,10 @@ class LineSection(QGroupBox):
         step.addWidget(self.resolution, 1)
         step.addWidget(self.samples, 1)
         rows = form()
-        rows.addRow("Preset", self.presets)
+        rows.addRow(tr("Preset"), self.presets)
         rows.addRow(grid)
-        rows.addRow("Step", step)
-        rows.addRow("Tool", self.orientation)
+        rows.addRow(tr("Step"), step)
+        rows.addRow(tr("Tool"), self.orientation)
         rows.addRow(self.button)
         self.setLayout(rows)
 
@@ -107,7 +110,7 @@ class LineSection(QGroupBox):
         presets = self._presets_of(experiment.robot)
         with QSignalBlocker(self.presets):
             self.presets.clear()
-            self.presets.addItem("Your own", None)
+            self.presets.addItem(tr("Your own"), None)
             for preset in presets:
                 self.presets.addItem(preset.title, preset)
             same = [i for i, preset in enumerate(presets, 1) if _same_line(preset, experiment.line)]
@@ -124,19 +127,21 @@ class LineSection(QGroupBox):
         preset = self.presets.itemData(index)
         if preset is not None:
             line = replace(self._session.experiment, line=preset.task())
-            self._session.edit(f"Line: {preset.title}", line)
+            self._session.edit(tr("Line: {title}", title=preset.title), line)
 
     def _on_point(self, end: str) -> None:
-        self._edit(f"line {end}", f"line {end}", **{end: [box.quantity for box in self.boxes[end]]})
+        self._edit(
+            tr("line {end}", end=end), tr("line {end}", end=end), **{end: [box.quantity for box in self.boxes[end]]}
+        )
 
     def _on_orientation(self, orientation: PathOrientation) -> None:
         if orientation != self._session.experiment.line.orientation:
-            self._edit("line orientation", orientation=orientation)
+            self._edit(tr("line orientation"), orientation=orientation)
 
     def _edit(self, what: str, merge: str = "", **changes: Any) -> None:
         experiment = self._session.experiment
         line = replace(experiment.line, **changes)
-        self._session.edit(f"Edit {what}", replace(experiment, line=line), merge=merge)
+        self._session.edit(tr("Edit {what}", what=what), replace(experiment, line=line), merge=merge)
 
 
 def _same_line(preset: LinePreset, line: LineTask) -> bool:

@@ -19,14 +19,15 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import combo, select
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.orientations import Angles
+from rvsim.language import tr, tr_later
 from rvsim.spatial import rpy_from_rotation
 
 _ORIENTATIONS = {
-    "source": "As the path has it",
+    "source": tr_later("As the path has it"),
     **LINE_ORIENTATIONS,
-    "normal": "Normal to the plane, or the nearest",
-    "pitch": "Pitch ψ held",
-    "turn": "Turning evenly to another",
+    "normal": tr_later("Normal to the plane, or the nearest"),
+    "pitch": tr_later("Pitch ψ held"),
+    "turn": tr_later("Turning evenly to another"),
 }
 _NAMES = ("roll", "pitch", "yaw")
 
@@ -44,17 +45,17 @@ class OrientationRows(QWidget):
         super().__init__()
         self._session = session
         self._task: TrajectoryTask = session.experiment.trajectory
-        self.choice = combo("trajectory_orientation", "Tool orientation along the trajectory", _ORIENTATIONS)
+        self.choice = combo("trajectory_orientation", tr("Tool orientation along the trajectory"), _ORIENTATIONS)
         self.choice.activated.connect(lambda _: self._on_choice(self.choice.currentData()))
-        self.pitch = QuantityBox("angle", preferences, "ψ of the tool above the horizontal; −90° is straight down")
+        self.pitch = QuantityBox("angle", preferences, tr("ψ of the tool above the horizontal; −90° is straight down"))
         self.pitch.setObjectName("trajectory_pitch")
-        self.pitch.quantity_changed.connect(lambda value: self._edit("trajectory pitch", pitch=value))
-        self.from_now = QCheckBox("from how the tool is now")
+        self.pitch.quantity_changed.connect(lambda value: self._edit(tr("trajectory pitch"), pitch=value))
+        self.from_now = QCheckBox(tr("from how the tool is now"))
         self.from_now.setObjectName("trajectory_from_now")
         self.from_now.toggled.connect(self._on_from_now)
         self.ends = {
-            "turn_from": NumberRow("trajectory_from", _NAMES, ("angle",) * 3, preferences, "Tool at the beginning"),
-            "turn_to": NumberRow("trajectory_to", _NAMES, ("angle",) * 3, preferences, "Tool at the end"),
+            "turn_from": NumberRow("trajectory_from", _NAMES, ("angle",) * 3, preferences, tr("Tool at the beginning")),
+            "turn_to": NumberRow("trajectory_to", _NAMES, ("angle",) * 3, preferences, tr("Tool at the end")),
         }
         for name, row in self.ends.items():
             row.edited.connect(lambda _, name=name: self._on_end(name))
@@ -68,7 +69,7 @@ class OrientationRows(QWidget):
         self._pitch_row, self._turn_rows = QWidget(), QWidget()
         pitch = QHBoxLayout(self._pitch_row)
         pitch.setContentsMargins(0, 0, 0, 0)
-        label = QLabel("ψ above level")
+        label = QLabel(tr("ψ above level"))
         set_role(label, role="muted")
         pitch.addWidget(label)
         pitch.addWidget(self.pitch, 1)
@@ -117,7 +118,7 @@ class OrientationRows(QWidget):
 
     def _on_end(self, name: str) -> None:
         roll, pitch, yaw = self.ends[name].values.tolist()
-        self._edit(f"trajectory {name}", **{name: (roll, pitch, yaw)})
+        self._edit(tr("trajectory {name}", name=name), **{name: (roll, pitch, yaw)})
 
     def _edit(self, merge: str, **changes: Any) -> None:
         self.edited.emit(replace(self._task, **changes), merge)

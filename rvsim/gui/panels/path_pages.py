@@ -11,11 +11,12 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.tracker import PathTracker
+from rvsim.language import tr_later
 
 _KINDS = (
-    (CheckPage, "What the path asks of the arm, before it moves, and what would help"),
-    (ProgramPage, "An ordered list of moves: teach, check and run it"),
-    (ComparePage, "The closed form and every numeric solver along the same path"),
+    (CheckPage, tr_later("What the path asks of the arm, before it moves, and what would help")),
+    (ProgramPage, tr_later("An ordered list of moves: teach, check and run it")),
+    (ComparePage, tr_later("The closed form and every numeric solver along the same path")),
 )
 
 

@@ -19,6 +19,7 @@ from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
 from rvsim.lab.shape_paths import placed_task, placement_of
+from rvsim.language import tr
 
 # Their points are moved themselves: there is no turn or size to show.
 _TABLES = ("points", "arc-through")
@@ -39,14 +40,17 @@ class PlaceRows(QWidget):
         self._task: TrajectoryTask | None = None
         self._where: Placement | None = None
         self.center: NumberRow | None = None
-        self.scale = QuantityBox("number", preferences, "How many times as large")
+        self.scale = QuantityBox("number", preferences, tr("How many times as large"))
         self.scale.setObjectName("path_scale")
-        self.scale.set_range(1e-3, 1e3, "A path can be a thousandth to a thousand times as large.")
+        self.scale.set_range(1e-3, 1e3, tr("A path can be a thousandth to a thousand times as large."))
         self.reset = button(
-            "path_place_reset", "As it was", "Back to where it is without having been moved", self._reset
+            "path_place_reset", tr("As it was"), tr("Back to where it is without having been moved"), self._reset
         )
         self.drag = button(
-            "path_move_button", "Move in the scene", "Drag, turn and scale it by a gizmo at its middle", self._switch
+            "path_move_button",
+            tr("Move in the scene"),
+            tr("Drag, turn and scale it by a gizmo at its middle"),
+            self._switch,
         )
         self.drag.setCheckable(True)
         self.drag.setEnabled(drag is not None)
@@ -60,7 +64,7 @@ class PlaceRows(QWidget):
             size.addWidget(widget)
         self._column.addLayout(size)
         self._column.addWidget(self.drag)
-        self.scale.quantity_changed.connect(lambda value: self._edit("path scale", scale=value))
+        self.scale.quantity_changed.connect(lambda value: self._edit(tr("path scale"), scale=value))
         self.scale.refused.connect(session.warn)
         self.scale.editingFinished.connect(session.end_stroke)
         if drag is not None:
@@ -94,10 +98,10 @@ class PlaceRows(QWidget):
         if self.center is not None:
             self.center.setParent(None)
             self.center.deleteLater()
-        self.center = NumberRow("path_center", ("x", "y", "z"), (kind,) * 3, self._preferences, "Path middle")
+        self.center = NumberRow("path_center", ("x", "y", "z"), (kind,) * 3, self._preferences, tr("Path middle"))
         self.center.setProperty("kind", kind)
         center = self.center
-        center.edited.connect(lambda _: self._edit("path center", center=center.values))
+        center.edited.connect(lambda _: self._edit(tr("path center"), center=center.values))
         self.center.refused.connect(self._session.warn)
         self.center.finished.connect(self._session.end_stroke)
         self._column.insertWidget(0, self.center)

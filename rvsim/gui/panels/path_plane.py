@@ -20,23 +20,26 @@ from rvsim.gui.widgets import button, combo, select
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.planes import PLANES, laid, plane_name, three_points, through_three, with_normal
 from rvsim.lab.shape_paths import is_flat, level_yaw, placed_task, placement_of
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rotation_from_rpy
 
 TILTED, NORMAL, THREE = "tilted", "normal", "points"
 _CHOICES = {
     **{name: plane.title for name, plane in PLANES.items()},
-    TILTED: "Tilted (angles)",
-    NORMAL: "Square to a normal",
-    THREE: "Through three points",
+    TILTED: tr_later("Tilted (angles)"),
+    NORMAL: tr_later("Square to a normal"),
+    THREE: tr_later("Through three points"),
 }
 _TYPED = ("points", "arc-through")  # their points lie where they were typed
 _TRIANGLE = 0.15  # the side of the points that are offered, in sizes of the arm
-_ON_A_LINE = "These three points lie on a line: no plane goes through them alone. Move one aside."
-_TOOL_KEEPS = "The tool stays as it was turned: for a pen square to the plane choose “Normal to the plane” under Tool."
+_ON_A_LINE = tr_later("These three points lie on a line: no plane goes through them alone. Move one aside.")
+_TOOL_KEEPS = tr_later(
+    "The tool stays as it was turned: for a pen square to the plane choose “Normal to the plane” under Tool."
+)
 _FEWEST_TO_TURN = 4  # joints
 _SAME = 1e-6
-_NO_NORMAL = "A normal needs a length: one of its three numbers must not be 0."
+_NO_NORMAL = tr_later("A normal needs a length: one of its three numbers must not be 0.")
 
 
 class _Corner(QWidget):
@@ -50,16 +53,18 @@ class _Corner(QWidget):
 
     def __init__(self, number: int, kind: Kind, preferences: Preferences) -> None:
         super().__init__()
-        title = ("First", "Second", "Third")[number]
-        self.row = NumberRow(f"plane_point_{number + 1}", ("x", "y", "z"), (kind,) * 3, preferences, f"{title} point")
-        tip = f"The {title.lower()} point is where the tool is now: drive the arm there"
-        self.take = button(f"plane_take_{number + 1}", "Tool", tip, self.taken.emit)
+        title = (tr("First"), tr("Second"), tr("Third"))[number]
+        self.row = NumberRow(
+            f"plane_point_{number + 1}", ("x", "y", "z"), (kind,) * 3, preferences, tr("{title} point", title=title)
+        )
+        tip = tr("The {lower} point is where the tool is now: drive the arm there", lower=title.lower())
+        self.take = button(f"plane_take_{number + 1}", tr("Tool"), tip, self.taken.emit)
         self.take.setProperty("compact", True)
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(6)
         label = QLabel(f"{number + 1}")
-        label.setToolTip(f"{title} point")
+        label.setToolTip(tr("{title} point", title=title))
         set_role(label, role="muted")
         grid.addWidget(label, 1, 0)
         grid.addWidget(self.row, 0, 1, 2, 1)
@@ -86,12 +91,12 @@ class PlaneRows(QWidget):
         self._unit: Kind | None = None
         self._robot_name = ""
         self._corners: list[_Corner] = []
-        self.choice = combo("path_plane", "The plane that the shape lies in", _CHOICES)
+        self.choice = combo("path_plane", tr("The plane that the shape lies in"), _CHOICES)
         for index, plane in enumerate(PLANES.values()):
             self.choice.setItemData(index, plane.tip, Qt.ItemDataRole.ToolTipRole)
         self.choice.activated.connect(lambda _: self._on_choice(self.choice.currentData()))
-        self.turn = NumberRow("path_turn", ("roll", "pitch", "yaw"), ("angle",) * 3, preferences, "Path turned by")
-        self.normal = NumberRow("path_normal", ("x", "y", "z"), ("number",) * 3, preferences, "Normal of the plane")
+        self.turn = NumberRow("path_turn", ("roll", "pitch", "yaw"), ("angle",) * 3, preferences, tr("Path turned by"))
+        self.normal = NumberRow("path_normal", ("x", "y", "z"), ("number",) * 3, preferences, tr("Normal of the plane"))
         self.turn.edited.connect(lambda _: self._on_turn())
         self.normal.edited.connect(lambda _: self._on_normal())
         for row in (self.turn, self.normal):
@@ -112,7 +117,7 @@ class PlaneRows(QWidget):
         """What stands before it; nothing where there is nothing to choose."""
         if self._task is None or self._task.name in _TYPED:
             return ""
-        return "Plane" if is_flat(self._task) else "Turned"
+        return tr("Plane") if is_flat(self._task) else tr("Turned")
 
     # --- showing ---------------------------------------------------------------------------------------------------
 
@@ -193,15 +198,15 @@ class PlaneRows(QWidget):
 
     def _on_turn(self) -> None:
         if self._where is not None:
-            self._lay(replace(self._where, rpy=self.turn.values), "path turn")
+            self._lay(replace(self._where, rpy=self.turn.values), tr("path turn"))
 
     def _on_normal(self) -> None:
         if self._where is None:
             return
-        self._lay_or_say(with_normal(self._where, self.normal.values), "path normal", _NO_NORMAL)
+        self._lay_or_say(with_normal(self._where, self.normal.values), tr("path normal"), _NO_NORMAL)
 
     def _on_corner(self, number: int, _box: int) -> None:
-        self._put_point(number, self._corners[number].row.values, f"plane point {number}")
+        self._put_point(number, self._corners[number].row.values, tr("plane point {number}", number=number))
 
     def _take(self, number: int) -> None:
         """A point is where the tool is."""
@@ -221,7 +226,7 @@ class PlaneRows(QWidget):
         else:
             self._lay(where, merge)
 
-    def _lay(self, where: Placement, merge: str, text: str = "Turn the plane") -> None:
+    def _lay(self, where: Placement, merge: str, text: str = tr_later("Turn the plane")) -> None:
         assert self._task is not None
         self.edited.emit(placed_task(self._session.robot, self._task, where), merge, text)
 

@@ -16,10 +16,11 @@ from rvsim.gui.quantities import Display, display, format_number, joint_kind, le
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.lab.tables import tracking_csv
+from rvsim.language import tr, tr_later
 from rvsim.motion import Tracking, Unreached
 
 _ROOT = QModelIndex()
-_WHY = {"reach": "out of reach", "orientation": "not with this orientation"}
+_WHY = {"reach": tr_later("out of reach"), "orientation": tr_later("not with this orientation")}
 _MISSED = QColor("#D9534F")
 
 
@@ -73,12 +74,18 @@ class PathPointsModel(QAbstractTableModel):
     def _came_of(self, tracking: Tracking, row: int) -> str:
         missed = self._missed.get(row)
         if missed is None:
-            return "after a jump" if row in tracking.jumps else "reached"
+            return tr("after a jump") if row in tracking.jumps else "reached"
         if missed.kind != "limits" or missed.joint is None or missed.value is None or missed.limit is None:
             return _WHY.get(missed.kind, "outside the limits")
         shown = self._joint(tracking, tracking.robot.joint_names.index(missed.joint))
         needs, limit = (format_number(x * shown.factor, shown.decimals) for x in (missed.value, missed.limit))
-        return f"{missed.joint}: {needs}{shown.suffix} needed, limit {limit}{shown.suffix}"
+        return tr(
+            "{joint}: {needs}{suffix} needed, limit {limit}{suffix}",
+            joint=missed.joint,
+            needs=needs,
+            suffix=shown.suffix,
+            limit=limit,
+        )
 
     def _length(self, tracking: Tracking) -> Display:
         return display(length_kind(tracking.robot), self._preferences)
@@ -92,7 +99,7 @@ class PathPointsModel(QAbstractTableModel):
         if tracking is None or role != Qt.ItemDataRole.DisplayRole or orientation != Qt.Orientation.Horizontal:
             return None
         if section in (0, 4):
-            return "no." if section == 0 else "what came of it"
+            return "no." if section == 0 else tr("what came of it")
         if section < 4:
             return f"{'xyz'[section - 1]} {self._length(tracking).suffix.strip()}"
         return f"{tracking.robot.joint_names[section - 5]} {self._joint(tracking, section - 5).suffix.strip()}"
@@ -104,11 +111,11 @@ class PathPointsDialog(QDialog):
     def __init__(self, session: Session, preferences: Preferences, parent: QWidget) -> None:
         super().__init__(parent)
         self.setObjectName("path_points_dialog")
-        self.setWindowTitle("Points of the path")
+        self.setWindowTitle(tr("Points of the path"))
         self.resize(820, 460)
         self._session = session
         self.model = PathPointsModel(preferences, self)
-        self.table = plain_table("tracked_points_table", "Points of the path and what came of them", self.model)
+        self.table = plain_table("tracked_points_table", tr("Points of the path and what came of them"), self.model)
         self.table.setWordWrap(False)
         self.table.verticalHeader().setDefaultSectionSize(self.table.fontMetrics().height() + 8)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -117,7 +124,7 @@ class PathPointsDialog(QDialog):
         self.table.clicked.connect(lambda index: self._go(index.row()))
         self.note = QLabel(wordWrap=True)
         set_role(self.note, role="muted")
-        self.copy = CopyButton("tracked_points_copy", "the points", {"CSV": self._as_csv}, session)
+        self.copy = CopyButton("tracked_points_copy", tr("the points"), {"CSV": self._as_csv}, session)
         head = QHBoxLayout()
         head.addWidget(self.note, 1)
         head.addWidget(self.copy)
@@ -136,9 +143,13 @@ class PathPointsDialog(QDialog):
         columns.setStretchLastSection(False)
         self.copy.setEnabled(tracking is not None)
         self.note.setText(
-            "Nothing is tracked at present."
+            tr("Nothing is tracked at present.")
             if tracking is None
-            else f"{tracking.samples} points, {tracking.reached_count} reached. A click moves the arm there."
+            else tr(
+                "{samples} points, {reached_count} reached. A click moves the arm there.",
+                samples=tracking.samples,
+                reached_count=tracking.reached_count,
+            )
         )
 
     def _go(self, row: int) -> None:
@@ -146,9 +157,11 @@ class PathPointsDialog(QDialog):
         if tracking is None or not 0 <= row < tracking.samples or tracking is not self._session.tracking:
             return
         if not tracking.reached[row]:
-            self._session.warn(f"Point {row + 1} was not reached: {self.model.data(self.model.index(row, 4))}.")
+            self._session.warn(
+                tr("Point {row} was not reached: {data}.", row=row + 1, data=self.model.data(self.model.index(row, 4)))
+            )
         elif not np.array_equal(tracking.q[row], self._session.q):
-            self._session.move_to(tracking.q[row], f"Go to point {row + 1}", merge="go to a point")
+            self._session.move_to(tracking.q[row], tr("Go to point {row}", row=row + 1), merge="go to a point")
 
     def _as_csv(self) -> str:
         return "" if self.model.tracking is None else tracking_csv(self.model.tracking)

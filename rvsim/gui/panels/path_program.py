@@ -31,26 +31,27 @@ from rvsim.gui.widgets import button, scrolled
 from rvsim.gui.workers import LatestWorker
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.program_words import move_words, plan_sentence, problem_sentence
+from rvsim.language import tr, tr_later
 from rvsim.motion.program import Plan, plan_program
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.paths import path_items
 
 _CHECK_MS = 150  # after the last change
 _DRAWN = 60  # places a move
-_FILES = "Programs (*.toml)"
+_FILES = tr_later("Programs (*.toml)")
 _ADD = (
-    ("joint", "Pose", "Add a move of all joints to the present pose"),
-    ("line", "Line", "Add a straight line of the tool to where it is now"),
-    ("arc", "Arc", "Add an arc of the tool to where it is now; then move its middle"),
-    ("wait", "Wait", "Add a rest"),
-    ("gripper", "Grip", "Add an opening or closing of the gripper"),
+    ("joint", tr_later("Pose"), tr_later("Add a move of all joints to the present pose")),
+    ("line", tr_later("Line"), tr_later("Add a straight line of the tool to where it is now")),
+    ("arc", tr_later("Arc"), tr_later("Add an arc of the tool to where it is now; then move its middle")),
+    ("wait", tr_later("Wait"), tr_later("Add a rest")),
+    ("gripper", tr_later("Grip"), tr_later("Add an opening or closing of the gripper")),
 )
 
 
 class ProgramPage(PathPage):
     """Edits `experiment.program`, keeps a plan of it that is worked out aside, and plays it."""
 
-    title = "Program"
+    title = tr_later("Program")
     name = "program"
 
     def __init__(
@@ -105,7 +106,7 @@ class ProgramPage(PathPage):
     def _adders(self) -> QHBoxLayout:
         row = QHBoxLayout()
         row.setSpacing(4)
-        label = QLabel("Add")
+        label = QLabel(tr("Add"))
         set_role(label, role="muted")
         row.addWidget(label)
         for kind, text, tip in _ADD:
@@ -116,10 +117,10 @@ class ProgramPage(PathPage):
         row = QHBoxLayout()
         row.setSpacing(4)
         for name, text, tip, slot in (
-            ("up", "▲ Up", "Move the chosen one up (Alt+Up)", lambda: self.shift(-1)),
-            ("down", "▼ Down", "Move the chosen one down (Alt+Down)", lambda: self.shift(1)),
-            ("duplicate", "Duplicate", "The chosen one once more", self.duplicate),
-            ("delete", "Delete", "Take the chosen one out (Delete)", self.delete),
+            ("up", "▲ Up", tr("Move the chosen one up (Alt+Up)"), lambda: self.shift(-1)),
+            ("down", "▼ Down", tr("Move the chosen one down (Alt+Down)"), lambda: self.shift(1)),
+            ("duplicate", tr("Duplicate"), tr("The chosen one once more"), self.duplicate),
+            ("delete", tr("Delete"), tr("Take the chosen one out (Delete)"), self.delete),
         ):
             row.addWidget(_narrow(self._button(name, text, tip, slot)), 1)
         return row
@@ -129,10 +130,10 @@ class ProgramPage(PathPage):
         grid.setSpacing(4)
         for number, (name, text, tip, slot) in enumerate(
             (
-                ("run", "Run program", "Play it from where the arm is, as far as it can be done", self.run),
-                ("check", "Check", "Say whether each move can be done", self.check),
-                ("save", "Save …", "Write it to a file", self.ask_save),
-                ("open", "Open …", "Take one from a file", self.ask_open),
+                ("run", tr("Run program"), tr("Play it from where the arm is, as far as it can be done"), self.run),
+                ("check", tr("Check"), tr("Say whether each move can be done"), self.check),
+                ("save", tr("Save …"), tr("Write it to a file"), self.ask_save),
+                ("open", tr("Open …"), tr("Take one from a file"), self.ask_open),
             )
         ):
             grid.addWidget(self._button(name, text, tip, slot, primary=name == "run"), number // 2, number % 2)
@@ -168,30 +169,41 @@ class ProgramPage(PathPage):
         """Add a move behind the chosen one, or at the end."""
         index = self._chosen + 1 if self._chosen >= 0 else len(self.program)
         self._put(
-            f"Add {kind} move", inserted(self.program, index, new_move(kind, self._session.experiment, index)), index
+            tr("Add {kind} move", kind=kind),
+            inserted(self.program, index, new_move(kind, self._session.experiment, index)),
+            index,
         )
 
     def shift(self, by: int) -> None:
         """Move the chosen one up (negative) or down."""
         goal = self._chosen + by
         if self._chosen >= 0 and 0 <= goal < len(self.program):
-            self._put(f"Shift move {self._chosen + 1}", shifted(self.program, self._chosen, by), goal)
+            self._put(tr("Shift move {chosen}", chosen=self._chosen + 1), shifted(self.program, self._chosen, by), goal)
 
     def duplicate(self) -> None:
         """The chosen one once more behind it."""
         if self._chosen >= 0:
-            self._put(f"Duplicate move {self._chosen + 1}", duplicated(self.program, self._chosen), self._chosen + 1)
+            self._put(
+                tr("Duplicate move {chosen}", chosen=self._chosen + 1),
+                duplicated(self.program, self._chosen),
+                self._chosen + 1,
+            )
 
     def delete(self) -> None:
         """Take the chosen one out."""
         if self._chosen >= 0:
             left = removed(self.program, self._chosen)
-            self._put(f"Delete move {self._chosen + 1}", left, min(self._chosen, len(left) - 1))
+            self._put(tr("Delete move {chosen}", chosen=self._chosen + 1), left, min(self._chosen, len(left) - 1))
 
     def _on_edited(self, move: Move, field: str) -> None:
         if self._chosen >= 0:
             after = replaced(self.program, self._chosen, move)
-            self._put(f"Edit move {self._chosen + 1}", after, self._chosen, merge=f"program {self._chosen} {field}")
+            self._put(
+                tr("Edit move {chosen}", chosen=self._chosen + 1),
+                after,
+                self._chosen,
+                merge=f"program {self._chosen} {field}",
+            )
 
     def _put(self, text: str, program: Program, chosen: int, merge: str = "") -> None:
         self._chosen = chosen
@@ -245,13 +257,13 @@ class ProgramPage(PathPage):
     def _row(self, index: int, words: str) -> Row:
         plan = self.plan
         if plan is None:
-            return Row(words, "…", "Being worked out.")
+            return Row(words, "…", tr("Being worked out."))
         done = len(plan.steps)
         if index < done:
             seconds = plan.steps[index].duration
-            return Row(words, "✓", f"Can be done, in {seconds:.2f} s.")
+            return Row(words, "✓", tr("Can be done, in {seconds:.2f} s.", seconds=seconds))
         if index > done or plan.problem is None:
-            return Row(words, "·", f"Waits for move {done + 1}.")
+            return Row(words, "·", tr("Waits for move {done}.", done=done + 1))
         units = shown_units(self._preferences)
         return Row(words, "✗", problem_sentence(plan.robot, plan.moves[index], plan.problem, units), bad=True)
 
@@ -350,7 +362,7 @@ class ProgramPage(PathPage):
         self._tracker.clear()
         self._running = plan
         before = self._motion.opening
-        self._motion.load(plan.trajectory, "Run program", lambda t: plan.opening_at(t, before))
+        self._motion.load(plan.trajectory, tr("Run program"), lambda t: plan.opening_at(t, before))
         self._motion.play()
         self._show_running()
 
@@ -361,8 +373,8 @@ class ProgramPage(PathPage):
 
     def ask_save(self) -> None:
         """Ask for a place and save the program there."""
-        start = str(Path.home() / f"{self._session.robot.name}-program.toml")
-        file, _ = QFileDialog.getSaveFileName(self, "Save program", start, _FILES)
+        start = str(Path.home() / tr("{name}-program.toml", name=self._session.robot.name))
+        file, _ = QFileDialog.getSaveFileName(self, tr("Save program"), start, _FILES)
         if file:
             self.save_to(Path(file) if Path(file).suffix else Path(file).with_suffix(".toml"))
 
@@ -371,13 +383,16 @@ class ProgramPage(PathPage):
         try:
             save_program(self.program, self._session.robot, path)
         except OSError as problem:
-            self._session.say(f"Not saved: {path} cannot be written ({problem.strerror or problem}).", "error")
+            self._session.say(
+                tr("Not saved: {path} cannot be written ({value}).", path=path, value=problem.strerror or problem),
+                "error",
+            )
             return
-        self._session.say(f"Saved {path}.")
+        self._session.say(tr("Saved {path}.", path=path))
 
     def ask_open(self) -> None:
         """Ask for a file and take its program."""
-        file, _ = QFileDialog.getOpenFileName(self, "Open program", str(Path.home()), _FILES)
+        file, _ = QFileDialog.getOpenFileName(self, tr("Open program"), str(Path.home()), _FILES)
         if file:
             self.open_from(Path(file))
 
@@ -388,8 +403,8 @@ class ProgramPage(PathPage):
         except RvsimError as problem:
             self._session.say(str(problem), "error")
             return
-        self._put(f"Open {path.name}", program, 0)
-        self._session.say(f"Opened {len(program)} moves from {path}.")
+        self._put(tr("Open {name}", name=path.name), program, 0)
+        self._session.say(tr("Opened {count} moves from {path}.", count=len(program), path=path))
 
 
 def _asks_other(before: Experiment, after: Experiment) -> bool:

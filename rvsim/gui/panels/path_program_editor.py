@@ -20,16 +20,27 @@ from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, form, select
 from rvsim.kinematics import forward_kinematics
+from rvsim.language import tr, tr_later
 from rvsim.spatial import rpy_from_rotation
 
-_TOOLS = {"keep": "Tool as it is when the move begins", "turn": "Tool turned to …", "free": "Only the place matters"}
+_TOOLS = {
+    "keep": tr_later("Tool as it is when the move begins"),
+    "turn": tr_later("Tool turned to …"),
+    "free": tr_later("Only the place matters"),
+}
 _IN_A_ROW = 3
-_TITLES = {JointMove: "Joint move", LineMove: "Line", ArcMove: "Arc", Wait: "Wait", Gripper: "Gripper"}
-_PLACES = {"to": "To", "via": "Over"}
+_TITLES = {
+    JointMove: tr_later("Joint move"),
+    LineMove: tr_later("Line"),
+    ArcMove: tr_later("Arc"),
+    Wait: tr_later("Wait"),
+    Gripper: tr_later("Gripper"),
+}
+_PLACES = {"to": "To", "via": tr_later("Over")}
 _BOXES: dict[str, tuple[str, Kind, float, float]] = {  # title, kind, least, most
-    "speed": ("Speed", "percent", 0.01, 1.0),
-    "seconds": ("Time", "time", 0.0, 86_400.0),
-    "opening": ("Open", "percent", 0.0, 1.0),
+    "speed": (tr_later("Speed"), "percent", 0.01, 1.0),
+    "seconds": (tr_later("Time"), "time", 0.0, 86_400.0),
+    "opening": (tr_later("Open"), "percent", 0.0, 1.0),
 }
 
 
@@ -91,22 +102,22 @@ class MoveEditor(QWidget):
             rows.addRow(_BOXES[name][0], self._box(name))
         elif name in _PLACES:
             rows.addRow(self._place(name))
-            rows.addRow(self._here_button(name, f"{_PLACES[name]} where the tool is now"))
+            rows.addRow(self._here_button(name, tr("{places} where the tool is now", places=_PLACES[name])))
         elif name == "tool":
-            rows.addRow("Tool", self._tool())
+            rows.addRow(tr("Tool"), self._tool())
         elif name == "rpy" and getattr(self._move, "tool", "") == "turn":
             rows.addRow(self._angles())
-            rows.addRow(self._here_button("rpy", "As the tool is turned now"))
+            rows.addRow(self._here_button("rpy", tr("As the tool is turned now")))
         elif name == "q":
             self._joints(rows)
         elif name == "pose":
-            rows.addRow("Pose", self._pose())
+            rows.addRow(tr("Pose"), self._pose())
 
     # --- boxes -----------------------------------------------------------------------------------------------------
 
     def _box(self, name: str) -> QuantityBox:
         title, kind, least, most = _BOXES[name]
-        box = QuantityBox(kind, self._preferences, f"{title} of the move")
+        box = QuantityBox(kind, self._preferences, tr("{title} of the move", title=title))
         box.setObjectName(f"program_{name}")
         box.set_range(least, most)
         box.quantity_changed.connect(lambda value: self._edit(name, value))
@@ -137,14 +148,14 @@ class MoveEditor(QWidget):
         kind = length_kind(self._experiment.robot)
         title, axes = _PLACES[name], ("x", "y", "z")
         names = tuple(f"{title} {axis}" for axis in axes)
-        row = self._row(names, (kind,) * 3, "Move", name, slice(None), "program")
+        row = self._row(names, (kind,) * 3, tr("Move"), name, slice(None), "program")
         for axis, box in zip(axes, row.boxes, strict=True):
             box.setObjectName(f"program_{name}_{axis}")
         return row
 
     def _angles(self) -> NumberRow:
         names: tuple[str, ...] = ("roll", "pitch", "yaw")
-        return self._row(names, ("angle",) * 3, "Tool", "rpy", slice(None), "program")
+        return self._row(names, ("angle",) * 3, tr("Tool"), "rpy", slice(None), "program")
 
     def _joints(self, rows: Any) -> None:
         assert self._experiment is not None
@@ -155,11 +166,11 @@ class MoveEditor(QWidget):
             part = slice(first, min(first + _IN_A_ROW, robot.dof))
             names = robot.joint_names[part]
             kinds = tuple(joint_kind(robot, joint) for joint in range(robot.dof))[part]
-            rows.addRow(self._row(names, kinds, "Joint", "q", part, "program_joint"))
-        rows.addRow(self._here_button("q", "The joints as they are now"))
+            rows.addRow(self._row(names, kinds, tr("Joint"), "q", part, "program_joint"))
+        rows.addRow(self._here_button("q", tr("The joints as they are now")))
 
     def _tool(self) -> QComboBox:
-        box = combo("program_tool", "Tool orientation along the move", _TOOLS)
+        box = combo("program_tool", tr("Tool orientation along the move"), _TOOLS)
         box.activated.connect(lambda _: self._choose_tool(box.currentData()))
         self._showers.append(lambda move: select(box, move.tool))
         return box
@@ -172,7 +183,7 @@ class MoveEditor(QWidget):
         self._edit("tool", rule)
 
     def _pose(self) -> QComboBox:
-        box = combo("program_pose", "Which pose the joints go to")
+        box = combo("program_pose", tr("Which pose the joints go to"))
         box.activated.connect(lambda _: self._edit("pose", box.currentData()))
 
         def show(move: JointMove) -> None:
@@ -181,7 +192,7 @@ class MoveEditor(QWidget):
             names = [*known, *([move.pose] if move.pose and move.pose not in known else [])]
             if [box.itemData(i) for i in range(1, box.count())] != names:
                 box.clear()
-                box.addItem("These joints", "")
+                box.addItem(tr("These joints"), "")
                 for name in names:
                     box.addItem(name, name)
             select(box, move.pose)
@@ -190,8 +201,8 @@ class MoveEditor(QWidget):
         return box
 
     def _here_button(self, field: str, text: str) -> QWidget:
-        tip = "Take it from the arm as it stands"
-        return button(f"program_{field}_here", text, tip, partial(self._take_here, field))
+        tip = tr("Take it from the arm as it stands")
+        return button(tr("program_{field}_here", field=field), text, tip, partial(self._take_here, field))
 
     # --- values ----------------------------------------------------------------------------------------------------
 

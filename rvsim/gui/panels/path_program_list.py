@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidge
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.theme import THEMES
+from rvsim.language import tr
 
 _TOP = QModelIndex()
 _ROOM = 14  # [pixels] beside a text
@@ -97,7 +98,7 @@ class ProgramList(QTableView):
     def __init__(self, model: ProgramModel) -> None:
         super().__init__()
         self.setObjectName("program_list")
-        self.setAccessibleName("Moves of the program")
+        self.setAccessibleName(tr("Moves of the program"))
         self.setModel(model)
         self.setShowGrid(False)
         self.setWordWrap(True)
@@ -111,7 +112,7 @@ class ProgramList(QTableView):
         self.horizontalHeader().setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
         self.selectionModel().currentRowChanged.connect(lambda now, _before: self.chosen.emit(now.row()))
         for key, slot in (
-            ("Delete", self.delete_asked.emit),
+            (tr("Delete"), self.delete_asked.emit),
             ("Alt+Up", lambda: self.shift_asked.emit(-1)),
             ("Alt+Down", lambda: self.shift_asked.emit(1)),
         ):

@@ -10,8 +10,9 @@ from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import button
 from rvsim.lab.repairs import Offer
+from rvsim.language import tr, tr_later
 
-_NONE = "None of the repairs that were tried helps."
+_NONE = tr_later("None of the repairs that were tried helps.")
 
 
 class RepairList(QWidget):
@@ -32,9 +33,9 @@ class RepairList(QWidget):
         self.searching.setRange(0, 0)
         self.searching.setTextVisible(False)
         self.searching.setFixedHeight(8)
-        self.searching.setToolTip("Looking for repairs: each is tried before it is offered")
+        self.searching.setToolTip(tr("Looking for repairs: each is tried before it is offered"))
         self.cancel_button = button(
-            f"{prefix}repairs_cancel", "Cancel", "Give up the search for repairs", self.search.cancel
+            f"{prefix}repairs_cancel", tr("Cancel"), tr("Give up the search for repairs"), self.search.cancel
         )
         self.none = wrapped_label("muted")
         self.none.setText(_NONE)

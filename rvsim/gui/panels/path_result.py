@@ -15,6 +15,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import button, form
 from rvsim.lab.sentences import length_error, tracking_sentence
+from rvsim.language import tr
 from rvsim.motion import Tracking
 from rvsim.motion.between import way_deviation
 
@@ -23,14 +24,17 @@ class ResultSection(QGroupBox):
     """What came of it: how many points, how exact, how fast; and what could be done about missed ones."""
 
     def __init__(self, session: Session, preferences: Preferences, tracker: PathTracker) -> None:
-        super().__init__("Result")
+        super().__init__(tr("Result"))
         self._session, self._preferences, self._tracker = session, preferences, tracker
         self._table: PathPointsDialog | None = None
         self.reached, self.rms, self.largest, self.between, self.time = (QLabel() for _ in range(5))
         self.between.setObjectName("between_label")
         self.between.setToolTip(
-            "How far the tool leaves the straight way between neighbouring points: the joints pass the points exactly "
-            "and follow a spline between them. More points make it less"
+            tr(
+                "How far the tool leaves the straight way between neighbouring points: the joints pass the points "
+                "exactly "
+                "and follow a spline between them. More points make it less"
+            )
         )
         self.rms.setObjectName("rms_label")
         self.reached.setObjectName("reached_label")
@@ -42,19 +46,21 @@ class ResultSection(QGroupBox):
         self.busy.setRange(0, 0)
         self.busy.setTextVisible(False)
         self.busy.setFixedHeight(8)
-        self.cancel = button("cancel_tracking_button", "Cancel", "Give up working this path out", tracker.cancel)
-        tip = "Every point of the path with what came of it; a click moves the arm there"
-        self.points = button("path_points_button", "Points…", tip, self._show_points)
+        self.cancel = button(
+            "cancel_tracking_button", tr("Cancel"), tr("Give up working this path out"), tracker.cancel
+        )
+        tip = tr("Every point of the path with what came of it; a click moves the arm there")
+        self.points = button("path_points_button", tr("Points…"), tip, self._show_points)
         self.repairs = RepairList(tracker, "", told=False)
         rows = form()
         reached = QHBoxLayout()
         reached.addWidget(self.reached, 1)
         reached.addWidget(self.points)
-        rows.addRow("Reached", reached)
+        rows.addRow(tr("Reached"), reached)
         rows.addRow("RMS", self.rms)
-        rows.addRow("Largest", self.largest)
-        rows.addRow("Between", self.between)
-        rows.addRow("Solved in", self.time)
+        rows.addRow(tr("Largest"), self.largest)
+        rows.addRow(tr("Between"), self.between)
+        rows.addRow(tr("Solved in"), self.time)
         waiting = QHBoxLayout()
         waiting.addWidget(self.busy, 1)
         waiting.addWidget(self.cancel)
@@ -105,7 +111,7 @@ class ResultSection(QGroupBox):
             for label in (self.rms, self.largest):
                 label.setToolTip("")
             self.points.setEnabled(False)
-            self.sentence.setText("Nothing tracked yet. Track line moves the tool from start to end.")
+            self.sentence.setText(tr("Nothing tracked yet. Track line moves the tool from start to end."))
             set_role(self.sentence, level="")
             return
         self._show_numbers(tracking)
@@ -117,8 +123,12 @@ class ResultSection(QGroupBox):
         return "\u2013" if value is None else length_error(tracking.robot, value, self._tracker.units)
 
     def _show_numbers(self, tracking: Tracking) -> None:
-        self.reached.setText(f"{tracking.reached_count} of {tracking.samples} points")
-        of_reached = " (reached points)" if 0 < tracking.reached_count < tracking.samples else " (at the points)"
+        self.reached.setText(
+            tr("{reached_count} of {samples} points", reached_count=tracking.reached_count, samples=tracking.samples)
+        )
+        of_reached = (
+            tr(" (reached points)") if 0 < tracking.reached_count < tracking.samples else tr(" (at the points)")
+        )
         of_reached = of_reached if tracking.reached_count else ""
         self.rms.setText(self._deviation(tracking.rms, tracking) + of_reached)
         self.largest.setText(self._deviation(tracking.max_deviation, tracking) + of_reached)
@@ -128,7 +138,13 @@ class ResultSection(QGroupBox):
         for label in (self.rms, self.largest):
             label.setToolTip(self._each_axis(tracking))
         milliseconds = tracking.solve_seconds * 1e3
-        self.time.setText(f"{milliseconds:.2f} ms ({tracking.seconds_per_point * 1e6:.0f} µs a point)")
+        self.time.setText(
+            tr(
+                "{milliseconds:.2f} ms ({seconds_per_point:.0f} µs a point)",
+                milliseconds=milliseconds,
+                seconds_per_point=tracking.seconds_per_point * 1000000.0,
+            )
+        )
 
     def _each_axis(self, tracking: Tracking) -> str:
         """RMS, mean and largest deviation along each axis, as a table for a tooltip."""

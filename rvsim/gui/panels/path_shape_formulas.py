@@ -16,6 +16,7 @@ from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
 from rvsim.lab.shape_paths import MOST_SAMPLES, SPIRAL_STAGES, formula_points
+from rvsim.language import tr
 from rvsim.robot import Robot
 
 _MOST_STAGES = 8
@@ -30,17 +31,19 @@ class _StageRows(QWidget):
     def __init__(self, number: int, preferences: Preferences) -> None:
         super().__init__()
         self._stage: FormulaStage | None = None
-        self.end = QuantityBox("time", preferences, f"Stage {number} until")
+        self.end = QuantityBox("time", preferences, tr("Stage {number} until", number=number))
         self.end.setObjectName(f"stage{number}_end")
         self.end.quantity_changed.connect(lambda _: self._tell())
         self.samples = QSpinBox()
         self.samples.setObjectName(f"stage{number}_samples")
-        self.samples.setAccessibleName(f"Stage {number}: number of points")
+        self.samples.setAccessibleName(tr("Stage {number}: number of points", number=number))
         self.samples.setRange(2, MOST_SAMPLES)
         self.samples.setKeyboardTracking(False)
         self.samples.setSuffix(" pts")
         self.samples.valueChanged.connect(lambda _: self._tell())
-        self.remove = button(f"stage{number}_remove", "\u2212", "Take this stage out", self.removed.emit)
+        self.remove = button(
+            tr("stage{number}_remove", number=number), "\u2212", tr("Take this stage out"), self.removed.emit
+        )
         self.remove.setMaximumWidth(28)
         self.lines = {name: self._line(number, name) for name in "xyz"}
         grid = QGridLayout(self)
@@ -59,7 +62,7 @@ class _StageRows(QWidget):
     def _line(self, number: int, name: str) -> QLineEdit:
         line = QLineEdit()
         line.setObjectName(f"stage{number}_{name}")
-        line.setAccessibleName(f"Stage {number}: {name} as a formula of t")
+        line.setAccessibleName(tr("Stage {number}: {name} as a formula of t", number=number, name=name))
         line.setMaxLength(200)
         line.editingFinished.connect(self._tell)
         return line
@@ -68,7 +71,7 @@ class _StageRows(QWidget):
         """Show a stage, silently; the only one cannot be taken out."""
         self._stage = stage
         self.title.setText(f"t = {begin:g} s to")
-        self.end.set_range(begin + 1e-3, 1e4, f"The stage begins at {begin:g} s.")
+        self.end.set_range(begin + 1e-3, 1e4, tr("The stage begins at {begin:g} s.", begin=begin))
         self.end.set_quantity(stage.end)
         with QSignalBlocker(self.samples):
             self.samples.setValue(stage.samples)
@@ -98,14 +101,14 @@ class FormulaRows(ShapeEditor):
         self._rows: list[_StageRows] = []
         self.unit = QLabel(wordWrap=True)
         set_role(self.unit, role="muted")
-        length = "mm" if robot.length_unit == "millimetre" else "the arm’s unit"
-        self.unit.setText(f"x, y, z in {length}, t in s, angles in rad: sin, cos, sqrt, exp, pi …")
+        length = "mm" if robot.length_unit == "millimetre" else tr("the arm’s unit")
+        self.unit.setText(tr("x, y, z in {length}, t in s, angles in rad: sin, cos, sqrt, exp, pi …", length=length))
         self.problem = QLabel(wordWrap=True)
         self.problem.setObjectName("formula_problem")
         set_role(self.problem, level="error")
-        self.add = button("stage_add", "Add a stage", "Go on from where the last stage ends", self._add_stage)
-        tip = "The two stages of source 003: straight up, then a spiral, 2001 points in its unit"
-        self.spiral = button("formula_spiral", "Source 003", tip, self._take_spiral)
+        self.add = button("stage_add", tr("Add a stage"), tr("Go on from where the last stage ends"), self._add_stage)
+        tip = tr("The two stages of source 003: straight up, then a spiral, 2001 points in its unit")
+        self.spiral = button("formula_spiral", tr("Source 003"), tip, self._take_spiral)
         self._column = QVBoxLayout()
         self._column.setSpacing(4)
         buttons = QHBoxLayout()
@@ -155,7 +158,9 @@ class FormulaRows(ShapeEditor):
         stages = [rows.stage for rows in self._rows]
         later = number + 1
         if later < len(stages) and stages[later].end <= stages[number].end:
-            self._complain(f"Stage {later + 1} ends at {stages[later].end:g} s, before it begins.")
+            self._complain(
+                tr("Stage {later} ends at {end:g} s, before it begins.", later=later + 1, end=stages[later].end)
+            )
             return
         self._take(replace(self._shape, stages=tuple(stages)))
 

@@ -23,16 +23,17 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, display, format_number, length_kind
 from rvsim.gui.widgets import button, combo, select
 from rvsim.lab.path_file import points_mm_of
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import metres_from_millimetres
 
 _JOINS = {
-    "lines": "Joined by lines",
-    "natural": "A spline, natural ends",
-    "not-a-knot": "A spline, not-a-knot",
-    "closed": "A closed spline",
-    "none": "The points alone",
+    "lines": tr_later("Joined by lines"),
+    "natural": tr_later("A spline, natural ends"),
+    "not-a-knot": tr_later("A spline, not-a-knot"),
+    "closed": tr_later("A closed spline"),
+    "none": tr_later("The points alone"),
 }
 _ROOT = QModelIndex()
 _SHOWN_ROWS = 6
@@ -114,20 +115,20 @@ class PointRows(ShapeEditor):
         self.model = _PointsModel(robot, preferences, self)
         self.model.edited.connect(self._on_points)
         self.model.refused.connect(self.refused)
-        self.table = plain_table("path_points_table", "Points of the path", self.model)
+        self.table = plain_table("path_points_table", tr("Points of the path"), self.model)
         row = self.table.fontMetrics().height() + 8
         self.table.verticalHeader().setDefaultSectionSize(row)
         self.table.setFixedHeight((_SHOWN_ROWS + 1) * row + 8)
         self.table.selectionModel().currentRowChanged.connect(self._show_chosen)
-        self.join = combo("points_join", "How the points are joined", _JOINS)
+        self.join = combo("points_join", tr("How the points are joined"), _JOINS)
         self.join.activated.connect(lambda _: self._edit(join=self.join.currentData()))
         self.samples = QSpinBox()
         self.samples.setObjectName("shape_samples")
-        self.samples.setAccessibleName("Number of points on the whole path")
+        self.samples.setAccessibleName(tr("Number of points on the whole path"))
         self.samples.setRange(2, 5001)
         self.samples.setKeyboardTracking(False)
         self.samples.setSuffix(" points")
-        self.samples.valueChanged.connect(lambda value: self._edit("shape samples", samples=value))
+        self.samples.valueChanged.connect(lambda value: self._edit(tr("shape samples"), samples=value))
         self.samples.editingFinished.connect(self.finished)
         self._lay_out()
         paste = QShortcut(QKeySequence(QKeySequence.StandardKey.Paste), self.table)
@@ -136,11 +137,16 @@ class PointRows(ShapeEditor):
 
     def _lay_out(self) -> None:
         tips = (
-            ("points_add", "Add", "A point after the chosen one, a copy of it", self.add),
-            ("points_delete", "Delete", "Take the chosen points out", self.delete),
-            ("points_up", "Up", "The chosen point earlier", lambda: self._swap(-1)),
-            ("points_down", "Down", "The chosen point later", lambda: self._swap(1)),
-            ("points_paste", "Paste", "Rows x, y, z from a spreadsheet, after the chosen point (Ctrl+V)", self.paste),
+            ("points_add", tr("Add"), tr("A point after the chosen one, a copy of it"), self.add),
+            ("points_delete", tr("Delete"), tr("Take the chosen points out"), self.delete),
+            ("points_up", "Up", tr("The chosen point earlier"), lambda: self._swap(-1)),
+            ("points_down", tr("Down"), tr("The chosen point later"), lambda: self._swap(1)),
+            (
+                "points_paste",
+                tr("Paste"),
+                tr("Rows x, y, z from a spreadsheet, after the chosen point (Ctrl+V)"),
+                self.paste,
+            ),
         )
         buttons = QGridLayout()
         buttons.setSpacing(4)
@@ -192,7 +198,7 @@ class PointRows(ShapeEditor):
     def add_place(self, place: FloatArray) -> None:
         """A point (3,) after the chosen one; the first of one's own begins a path of its own."""
         if len(self.model.points) >= MOST_POINTS:
-            self.refused.emit(f"Not added: a path has at most {MOST_POINTS} points.")
+            self.refused.emit(tr("Not added: a path has at most {most_points} points.", most_points=MOST_POINTS))
         elif self.is_example:
             self._on_points(place[None], 0)
         else:
@@ -209,7 +215,7 @@ class PointRows(ShapeEditor):
         """Rows from the clipboard after the chosen point."""
         text = QGuiApplication.clipboard().text()
         try:
-            numbers = points_mm_of(FilePath("The clipboard"), text)
+            numbers = points_mm_of(FilePath(tr("The clipboard")), text)
         except PathFileError as problem:
             self.refused.emit(str(problem))
             return
@@ -217,7 +223,7 @@ class PointRows(ShapeEditor):
         if self._robot.length_unit == "millimetre":
             pasted = np.asarray(metres_from_millimetres(pasted))
         if len(pasted) + len(self.model.points) > MOST_POINTS:
-            self.refused.emit(f"Not pasted: a path has at most {MOST_POINTS} points.")
+            self.refused.emit(tr("Not pasted: a path has at most {most_points} points.", most_points=MOST_POINTS))
             return
         row = self._row()
         self._on_points(np.insert(self.model.points, [row + 1] * len(pasted), pasted, axis=0), row + len(pasted))

@@ -23,6 +23,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, length_kind
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import set_role
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
 _IN_ROW = 3
@@ -52,13 +53,13 @@ FIELDS: dict[type[Shape], tuple[Field, ...]] = {
         _POINTS,
     ),
     ArcThroughShape: (_POINTS,),
-    EllipseShape: (_length("a", "half axis x"), _length("b", "half axis y"), _POINTS),
+    EllipseShape: (_length("a", tr_later("half axis x")), _length("b", tr_later("half axis y")), _POINTS),
     PolygonShape: (_length("radius", "radius"), Field("corners", "corners", "count", 3, 60), _POINTS),
     StarShape: (_length("radius", "radius"), _POINTS),
     TextShape: (
-        _length("height", "letter height"),
-        _length("lift", "pen lift", 0.0),
-        _length("spacing", "point spacing", 1e-4),
+        _length("height", tr_later("letter height")),
+        _length("lift", tr_later("pen lift"), 0.0),
+        _length("spacing", tr_later("point spacing"), 1e-4),
     ),
 }
 
@@ -117,14 +118,14 @@ class ShapeRows(ShapeEditor):
         box = QSpinBox()
         box.setRange(int(field.lower), int(field.upper))
         box.setKeyboardTracking(False)
-        box.setAccessibleName(f"Shape: {field.title}")
+        box.setAccessibleName(tr("Shape: {title}", title=field.title))
         box.valueChanged.connect(lambda value: self._edit(**{field.name: value}))
         return box
 
     def _quantity(self, field: Field) -> QuantityBox:
         kind: Kind = length_kind(self._robot) if field.kind == "length" else "angle"
-        box = QuantityBox(kind, self._preferences, f"Shape: {field.title}")
-        box.set_range(field.lower, field.upper, "Nothing of that size can be drawn.")
+        box = QuantityBox(kind, self._preferences, tr("Shape: {title}", title=field.title))
+        box.set_range(field.lower, field.upper, tr("Nothing of that size can be drawn."))
         box.quantity_changed.connect(lambda value: self._edit(**{field.name: value}))
         box.refused.connect(self.refused)
         return box
@@ -132,7 +133,7 @@ class ShapeRows(ShapeEditor):
     def _add_text(self) -> None:
         self.text = QLineEdit()
         self.text.setObjectName("shape_text")
-        self.text.setAccessibleName("Text to write")
+        self.text.setAccessibleName(tr("Text to write"))
         self.text.setMaxLength(60)
         self.text.textEdited.connect(lambda text: self._edit(text=text))
         self.text.editingFinished.connect(self.finished)
@@ -141,7 +142,9 @@ class ShapeRows(ShapeEditor):
     def _add_corners(self) -> None:
         kind = length_kind(self._robot)
         for number, title in enumerate(("start", "via", "end")):
-            row = NumberRow(f"arc_{title}", ("x", "y", "z"), (kind,) * 3, self._preferences, f"Arc {title}")
+            row = NumberRow(
+                f"arc_{title}", ("x", "y", "z"), (kind,) * 3, self._preferences, tr("Arc {title}", title=title)
+            )
             row.edited.connect(lambda _, number=number: self._on_corner(number))
             row.refused.connect(self.refused)
             row.finished.connect(self.finished)
@@ -156,7 +159,7 @@ class ShapeRows(ShapeEditor):
         self._edit(points=points)
 
     def _edit(self, **changes: Any) -> None:
-        self.edited.emit(replace(self._shape, **changes), f"shape {' '.join(changes)}")
+        self.edited.emit(replace(self._shape, **changes), tr("shape {changes}", changes=" ".join(changes)))
 
     def show_shape(self, shape: Shape) -> None:
         """Show its numbers, silently."""

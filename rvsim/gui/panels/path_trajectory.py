@@ -30,6 +30,7 @@ from rvsim.gui.undo_words import trajectory_words
 from rvsim.gui.widgets import button, combo, form
 from rvsim.lab.named_paths import named_path, path_entry, path_names
 from rvsim.lab.shape_paths import SHAPES, is_shape, shape_of
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -51,12 +52,12 @@ class TrajectorySection(QGroupBox):
         drag: PathDrag | None,
         clicks: PointClicks | None = None,
     ) -> None:
-        super().__init__("Trajectory")
+        super().__init__(tr("Trajectory"))
         self._session, self._preferences, self._preview = session, preferences, preview
         self._clicks = clicks
         self._editor: Editor | None = None
         self._edited: tuple[type[Shape], str] | None = None  # what the editor is for: the kind, and the arm's unit
-        self.selector = combo("trajectory_selector", "Trajectory")
+        self.selector = combo("trajectory_selector", tr("Trajectory"))
         self.selector.activated.connect(self._on_chosen)
         self.turned = OrientationRows(session, preferences)
         self.orientation = self.turned.choice
@@ -66,18 +67,20 @@ class TrajectorySection(QGroupBox):
         self.place = PlaceRows(session, preferences, drag)
         for rows in (self.turned, self.place):
             rows.edited.connect(self._put)
-        self.plane = QuantityBox("length", preferences, "Height of the drawing plane")
+        self.plane = QuantityBox("length", preferences, tr("Height of the drawing plane"))
         self.plane.setObjectName("trajectory_height")
         self.plane.quantity_changed.connect(self._on_height)
         self.plane.refused.connect(session.warn)
         self.plane.editingFinished.connect(session.end_stroke)
-        self.plane_label = QLabel("Height")
+        self.plane_label = QLabel(tr("Height"))
         self.notes = QLabel(wordWrap=True)
         set_role(self.notes, role="muted")
         self.reach = QLabel(wordWrap=True)
         self.reach.setObjectName("reach_label")
-        tip = "Solve the trajectory and move the tool along it (Ctrl+T)"
-        self.button = button("track_trajectory_button", "Track trajectory", tip, tracker.track_trajectory, primary=True)
+        tip = tr("Solve the trajectory and move the tool along it (Ctrl+T)")
+        self.button = button(
+            "track_trajectory_button", tr("Track trajectory"), tip, tracker.track_trajectory, primary=True
+        )
         self._lay_out()
         preview.changed.connect(self._show_reach)
         self._show_reach()
@@ -91,8 +94,8 @@ class TrajectorySection(QGroupBox):
         rows.addRow(self.plane_label, self.plane)
         rows.addRow(self.lies_label, self.lies)
         rows.addRow(self.lies.corners)
-        rows.addRow("Middle", self.place)
-        rows.addRow("Tool", self.turned)
+        rows.addRow(tr("Middle"), self.place)
+        rows.addRow(tr("Tool"), self.turned)
         rows.addRow(self.reach)
         rows.addRow(self.button)
         self.setLayout(rows)
@@ -126,7 +129,7 @@ class TrajectorySection(QGroupBox):
                 self.selector.insertSeparator(len(own))
             for name, kind in SHAPES.items():
                 self.selector.addItem(kind.title, name)
-            self.selector.addItem("CSV file…", _FILE)
+            self.selector.addItem(tr("CSV file…"), _FILE)
             self.selector.setCurrentIndex(self.selector.findData(task.name))
 
     def _show_shape(self, robot: Robot, task: TrajectoryTask) -> None:
@@ -171,13 +174,13 @@ class TrajectorySection(QGroupBox):
         if name == _FILE:
             self._choose_file()
         elif name != self._session.experiment.trajectory.name:
-            self._put(TrajectoryTask(name), "", f"Trajectory: {self.selector.itemText(index)}")
+            self._put(TrajectoryTask(name), "", tr("Trajectory: {itemText}", itemText=self.selector.itemText(index)))
 
     def _choose_file(self) -> None:
         """Ask for a file; its points become the table, to be changed like typed ones."""
         self.selector.setCurrentIndex(self.selector.findData(self._session.experiment.trajectory.name))
-        filters = "Tables of points (*.csv *.txt *.tsv);;All files (*)"
-        dialog = QFileDialog(self, "Points x, y, z", "", filters)
+        filters = tr("Tables of points (*.csv *.txt *.tsv);;All files (*)")
+        dialog = QFileDialog(self, tr("Points x, y, z"), "", filters)
         dialog.setObjectName("path_file_dialog")
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
         dialog.fileSelected.connect(self.load_file)
@@ -193,17 +196,23 @@ class TrajectorySection(QGroupBox):
             return
         if len(points) > MOST_POINTS:
             self._session.say(
-                f"{FilePath(file).name} has {len(points)} points; a path has at most {MOST_POINTS}.", "error"
+                tr(
+                    "{name} has {count} points; a path has at most {most_points}.",
+                    name=FilePath(file).name,
+                    count=len(points),
+                    most_points=MOST_POINTS,
+                ),
+                "error",
             )
             return
         task = TrajectoryTask("points", "source", shape=PointsShape(points, "none" if len(points) > 2 else "lines"))
-        self._put(task, "", f"Points of {FilePath(file).name}")
+        self._put(task, "", tr("Points of {name}", name=FilePath(file).name))
 
     def _on_shape(self, shape: Shape, merge: str) -> None:
         self._put(replace(self._session.experiment.trajectory, shape=shape), merge)
 
     def _on_height(self, value: float) -> None:
-        self._put(replace(self._session.experiment.trajectory, height=value), "trajectory height")
+        self._put(replace(self._session.experiment.trajectory, height=value), tr("trajectory height"))
 
     def _put(self, task: TrajectoryTask, merge: str, text: str = "") -> None:
         text = text or trajectory_words(self._session.experiment.trajectory, task)

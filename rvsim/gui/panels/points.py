@@ -18,6 +18,7 @@ from rvsim.gui.quantities import Display, display, format_number, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.lab.texts import matrix_latex, matrix_numpy, table_tsv
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.points import source_points
@@ -31,7 +32,7 @@ _BASE_COLOR = "#8b96a3"
 def point_names(robot: Robot) -> list[str]:
     """What each row of `source_points` is: the origins O₀ … Oₙ of the frames, then the gripper's points."""
     origins = [f"O{subscript(i)}  {name}" for i, name in enumerate(("base", *robot.joint_names))]
-    return [*origins, *(f"grip {i}" for i in range(1, _gripper_size(robot) + 1))]
+    return [*origins, *(tr("grip {i}", i=i) for i in range(1, _gripper_size(robot) + 1))]
 
 
 def point_colors(robot: Robot) -> list[str]:
@@ -123,10 +124,10 @@ class PointsPanel(ReadOutPanel):
         super().__init__(session, preferences, parent)
         self.setObjectName("points_panel")
         self.model = PointsModel(session.robot, preferences, self)
-        self.table = plain_table("points_table", "Points of the arm", self.model)
+        self.table = plain_table("points_table", tr("Points of the arm"), self.model)
         self.note = QLabel()
         formats = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
-        self.copy = CopyButton("points_copy", "the point table", formats, session)
+        self.copy = CopyButton("points_copy", tr("the point table"), formats, session)
         self._lay_out()
         shortcut = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self.table)
         shortcut.setContext(Qt.ShortcutContext.WidgetShortcut)
@@ -135,7 +136,7 @@ class PointsPanel(ReadOutPanel):
     def _lay_out(self) -> None:
         for axis in (1, 2, 3):
             self.table.horizontalHeader().setSectionResizeMode(axis, QHeaderView.ResizeMode.Fixed)
-        title = QLabel("Points of the arm")
+        title = QLabel(tr("Points of the arm"))
         set_role(title, role="title")
         set_role(self.note, role="muted")
         self.note.setWordWrap(True)
@@ -156,8 +157,10 @@ class PointsPanel(ReadOutPanel):
         self.model.show_points(robot, source_points(robot, self._session.q))
         fit_height(self.table)
         self._fit_columns()
-        source = "the table of source 000's Program 3; there in dm" if robot.name == "rv-m1" else "base coordinates"
-        text = f"{self.model.rowCount()} points × 3 coordinates: {source}."
+        source = (
+            tr("the table of source 000's Program 3; there in dm") if robot.name == "rv-m1" else tr("base coordinates")
+        )
+        text = tr("{rowCount} points × 3 coordinates: {source}.", rowCount=self.model.rowCount(), source=source)
         if self.note.text() != text:
             self.note.setText(text)
 

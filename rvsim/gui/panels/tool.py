@@ -19,11 +19,12 @@ from rvsim.gui.tool_edits import ToolEdit, moved_tool, turned_tool
 from rvsim.gui.widgets import column_of, combo, scrolled, select
 from rvsim.kinematics import forward_difference, forward_kinematics
 from rvsim.lab.texts import NamedValue, matrix_latex, matrix_numpy, pose_text, values_latex, values_numpy, values_text
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _AXES = ("x", "y", "z")
-_SECOND_WAY = (
+_SECOND_WAY = tr_later(
     "The same pose, computed a second and independent way: not by the DH matrices, but as a product of matrix "
     "exponentials of the joints' screws, derived from the zero pose. The two differ by rounding alone: distance of the "
     "origins, and largest difference in a rotation entry.\n\n"
@@ -45,18 +46,18 @@ class ToolPanel(ReadOutPanel):
         self.setObjectName("tool_panel")
         self._robot: Robot | None = None
         self._T: FloatArray = np.eye(4)
-        self.tools = combo("tool_selector", "Tool")
+        self.tools = combo("tool_selector", tr("Tool"))
         self.tools.activated.connect(self._on_tool)
         self.position = NumberRow("tool", _AXES, ("length", "length", "length"), preferences)
-        self.orientations = combo("orientation_selector", "Notation of the orientation", notation_titles())
+        self.orientations = combo("orientation_selector", tr("Notation of the orientation"), notation_titles())
         self.orientations.activated.connect(lambda _: preferences.set("orientation", self.orientations.currentData()))
-        self.angles = OrientationBoxes("tool", "Tool", preferences)
+        self.angles = OrientationBoxes("tool", tr("Tool"), preferences)
         self.rows = self.angles.rows
-        self.matrix = MatrixView(preferences, "Tool pose as a matrix")
+        self.matrix = MatrixView(preferences, tr("Tool pose as a matrix"))
         self.matrix.setObjectName("tool_matrix")
         self.convention, self.message, self.difference = QLabel(), QLabel(), QLabel()
         formats = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
-        self.copy = CopyButton("tool_copy", "the tool pose", formats, session)
+        self.copy = CopyButton("tool_copy", tr("the tool pose"), formats, session)
         self._connect()
         self._lay_out()
 
@@ -87,19 +88,19 @@ class ToolPanel(ReadOutPanel):
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
         column.setSpacing(6)
-        column.addLayout(_headed("Tool", self.tools, self.copy))
+        column.addLayout(_headed(tr("Tool"), self.tools, self.copy))
         column.addSpacing(4)
-        column.addLayout(_headed("Position"))
+        column.addLayout(_headed(tr("Position")))
         column.addWidget(self.position)
         column.addSpacing(6)
-        column.addLayout(_headed("Orientation", self.orientations))
+        column.addLayout(_headed(tr("Orientation"), self.orientations))
         self.matrix.hide()
         for page in (self.angles, self.matrix):
             column.addWidget(page)
         for label in (self.convention, self.message):
             column.addWidget(label)
         column.addSpacing(6)
-        column.addLayout(_headed("Checked a second way"))
+        column.addLayout(_headed(tr("Checked a second way")))
         column.addWidget(self.difference)
         column.addStretch(1)
         column_of(self, scrolled(inside))
@@ -123,8 +124,12 @@ class ToolPanel(ReadOutPanel):
             format_scientific(float(difference.position)),
             format_scientific(float(difference.rotation)),
         )
-        text = f"Difference to the product of exponentials:\n{position} m in position, {rotation} in rotation."
-        own = "\nSource 000's “zero error” here is really 1.018 dm." if "rv-m1" in robot.name else ""
+        text = tr(
+            "Difference to the product of exponentials:\n{position} m in position, {rotation} in rotation.",
+            position=position,
+            rotation=rotation,
+        )
+        own = tr("\nSource 000's “zero error” here is really 1.018 dm.") if "rv-m1" in robot.name else ""
         self.difference.setText(text + own)
 
     def _show_orientation(self, chosen: str) -> None:
@@ -160,15 +165,17 @@ class ToolPanel(ReadOutPanel):
         name = self.tools.currentData()
         if name != self._session.robot.tool_name:
             robot = self._session.robot.with_tool(name)
-            self._session.edit(f"Take the {robot.tool.title}", self._session.experiment.with_robot(robot))
+            self._session.edit(
+                tr("Take the {title}", title=robot.tool.title), self._session.experiment.with_robot(robot)
+            )
 
     def _move(self, axis: int) -> None:
         edit = moved_tool(self._session.experiment, self._T, self.position.values, shown_units(self._preferences))
-        self._take(edit, f"Move the tool along {_AXES[axis]}", f"tool {_AXES[axis]}")
+        self._take(edit, tr("Move the tool along {axes}", axes=_AXES[axis]), tr("tool {axes}", axes=_AXES[axis]))
 
     def _turn(self, R: FloatArray, name: str) -> None:
         edit = turned_tool(self._session.experiment, self._T, R, shown_units(self._preferences))
-        self._take(edit, f"Turn the tool's {name}", f"tool {name}")
+        self._take(edit, tr("Turn the tool's {name}", name=name), tr("tool {name}", name=name))
 
     def _take(self, edit: ToolEdit, text: str, merge: str) -> None:
         if edit.q is not None:
@@ -194,7 +201,7 @@ class ToolPanel(ReadOutPanel):
 
     def _matrix_head(self) -> str:
         unit = display(length_kind(self._session.robot), self._preferences).suffix.strip()
-        return f"T_base_tool, lengths in {unit}"
+        return tr("T_base_tool, lengths in {unit}", unit=unit)
 
     def _is_matrix(self) -> bool:
         return bool(self._preferences["orientation"] == MATRIX)

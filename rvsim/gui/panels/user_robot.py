@@ -11,10 +11,11 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from rvsim.errors import RvsimError
 from rvsim.files import named_after, open_robot, robot_names, save_robot, user_robot_files, user_robot_path, user_robots
 from rvsim.gui.session import Session
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.edits import OWN_PREFIX, copied_source, original_name
 
-_FILTER = "Robot files (*.toml)"
+_FILTER = tr_later("Robot files (*.toml)")
 
 
 def is_own(robot: Robot) -> bool:
@@ -57,14 +58,14 @@ def ask_where_to_save(parent: QWidget, robot: Robot) -> Path | None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError:
         offered = Path.home() / offered.name
-    chosen, _ = QFileDialog.getSaveFileName(parent, "Save as robot file", str(offered), _FILTER)
+    chosen, _ = QFileDialog.getSaveFileName(parent, tr("Save as robot file"), str(offered), _FILTER)
     return Path(chosen) if chosen else None
 
 
 def ask_what_to_open(parent: QWidget, robot: Robot) -> Path | None:
     """The robot file that the user chooses, or None."""
     folder = user_robot_path(robot.title).parent
-    chosen, _ = QFileDialog.getOpenFileName(parent, "Open robot file", str(folder), _FILTER)
+    chosen, _ = QFileDialog.getOpenFileName(parent, tr("Open robot file"), str(folder), _FILTER)
     return Path(chosen) if chosen else None
 
 
@@ -84,11 +85,11 @@ def saved(session: Session, path: Path) -> tuple[bool, str]:
     except RvsimError as problem:
         return False, str(problem)
     except OSError as problem:
-        return False, f"Not saved: {path} cannot be written ({problem.strerror or problem})."
+        return False, tr("Not saved: {path} cannot be written ({value}).", path=path, value=problem.strerror or problem)
     shown = named_after(session.robot, path)  # its limits are narrower while an arm is connected
     if shown is not session.robot:
-        session.edit(f"Save as {path.name}", session.experiment.with_robot(shown))
-    return True, f"Saved {robot.title} as {path}."
+        session.edit(tr("Save as {name}", name=path.name), session.experiment.with_robot(shown))
+    return True, tr("Saved {title} as {path}.", title=robot.title, path=path)
 
 
 def opened(path: Path) -> tuple[Robot | None, str]:
@@ -97,4 +98,4 @@ def opened(path: Path) -> tuple[Robot | None, str]:
         robot = open_robot(path)
     except RvsimError as problem:
         return None, str(problem)
-    return robot, f"Opened {robot.title} from {path}."
+    return robot, tr("Opened {title} from {path}.", title=robot.title, path=path)

@@ -11,6 +11,7 @@ import numpy as np
 
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, joint_kind, length_kind
+from rvsim.language import tr, tr_later
 from rvsim.playback.curves import Curves
 from rvsim.robot.arrays import FloatArray
 
@@ -79,7 +80,7 @@ def _joints(curves: Curves, preferences: Preferences) -> Drawing:
         Band(joint.color, joint.lower * factor, joint.upper * factor)
         for joint, factor in zip(curves.robot.joints, factors, strict=True)
     )
-    return Drawing("Joints q", unit, _joint_lines(curves, curves.q, factors), bands)
+    return Drawing(tr("Joints q"), unit, _joint_lines(curves, curves.q, factors), bands)
 
 
 def _rates(title: str, order: str, below: str, limit: str = "") -> Callable[[Curves, Preferences], Drawing]:
@@ -103,40 +104,40 @@ def _place(curves: Curves, preferences: Preferences) -> Drawing:
     ]
     if curves.desired is not None:
         found += [
-            Line(f"{axis} wanted", color, curves.desired[:, i] * shown.factor, dashed=True)
+            Line(tr("{axis} wanted", axis=axis), color, curves.desired[:, i] * shown.factor, dashed=True)
             for i, (axis, color) in enumerate(zip("xyz", _AXIS_COLORS, strict=True))
         ]
-    return Drawing("Tool position", shown.suffix.strip(), tuple(found))
+    return Drawing(tr("Tool position"), shown.suffix.strip(), tuple(found))
 
 
 def _speed(curves: Curves, preferences: Preferences) -> Drawing:
     shown = display(length_kind(curves.robot), preferences)
     return Drawing(
-        "Tool speed", f"{shown.suffix.strip()}/s", (Line("speed", _TOOL_COLOR, curves.speed * shown.factor),)
+        tr("Tool speed"), f"{shown.suffix.strip()}/s", (Line("speed", _TOOL_COLOR, curves.speed * shown.factor),)
     )
 
 
 def _torque(curves: Curves, _preferences: Preferences) -> Drawing:
     if curves.torque is None:
-        why = f"No mass data for the {curves.robot.title}: enter it under Inspect › Dynamics."
-        return Drawing("Torque", "N m", empty=why)
+        why = tr("No mass data for the {title}: enter it under Inspect › Dynamics.", title=curves.robot.title)
+        return Drawing(tr("Torque"), "N m", empty=why)
     unit = "N m" if curves.robot.is_revolute.all() else "N m, N"
     bands = []
     for joint in curves.robot.joints:
         most = math.inf if joint.max_torque is None else joint.max_torque.value
         bands.append(Band(joint.color, -most, most))
-    return Drawing("Torque", unit, _joint_lines(curves, curves.torque, [1.0] * curves.robot.dof), tuple(bands))
+    return Drawing(tr("Torque"), unit, _joint_lines(curves, curves.torque, [1.0] * curves.robot.dof), tuple(bands))
 
 
 def _sigma(curves: Curves, _preferences: Preferences) -> Drawing:
     line = Line("σ min", _TOOL_COLOR, curves.sigma_min)
-    return Drawing("Smallest σ of J", "", (line,), (Band("#D55E00", NEAR_SINGULAR, math.inf),))
+    return Drawing(tr("Smallest σ of J"), "", (line,), (Band("#D55E00", NEAR_SINGULAR, math.inf),))
 
 
 def _deviation(curves: Curves, preferences: Preferences) -> Drawing:
     offset, deviation = curves.offset, curves.deviation
     if offset is None or deviation is None:
-        return Drawing("Deviation", "", empty="No path: track a line or a trajectory first.")
+        return Drawing(tr("Deviation"), "", empty=tr("No path: track a line or a trajectory first."))
     kind: Kind = length_kind(curves.robot)
     shown = display(kind, preferences)
     unit, factor = shown.suffix.strip(), shown.factor
@@ -144,17 +145,22 @@ def _deviation(curves: Curves, preferences: Preferences) -> Drawing:
     if kind == "length" and largest * shown.factor < 0.01:
         unit, factor = "µm", 1e6
     axes = (Line(f"Δ{axis}", _AXIS_COLORS[i], offset[:, i] * factor) for i, axis in enumerate("xyz"))
-    return Drawing("Deviation", unit, (Line("deviation", _OFF_COLOR, deviation * factor), *axes))
+    return Drawing(tr("Deviation"), unit, (Line("deviation", _OFF_COLOR, deviation * factor), *axes))
 
 
 PLOTS: tuple[PlotKind, ...] = (
-    PlotKind("q", "q", "Joints over time, between their limits", _joints),
-    PlotKind("qd", "q′", "Speeds of the joints", _rates("Joint speeds", "qd", "/s", "max_speed")),
-    PlotKind("qdd", "q″", "Accelerations", _rates("Joint accelerations", "qdd", "/s²", "max_acceleration")),
-    PlotKind("jerk", "q‴", "Jerks of the joints", _rates("Joint jerks", "jerk", "/s³")),
-    PlotKind("tool", "Tool", "Where the tool is, and where the path wants it", _place),
-    PlotKind("speed", "Speed", "How fast the tool goes", _speed),
-    PlotKind("torque", "τ", "Torques: what the joints must give", _torque),
-    PlotKind("sigma", "σ", "Smallest singular value: how near to a singularity", _sigma),
-    PlotKind("deviation", "Off path", "Deviation: how far the tool is from the path", _deviation),
+    PlotKind("q", "q", tr_later("Joints over time, between their limits"), _joints),
+    PlotKind("qd", "q′", tr_later("Speeds of the joints"), _rates(tr_later("Joint speeds"), "qd", "/s", "max_speed")),
+    PlotKind(
+        "qdd",
+        "q″",
+        tr_later("Accelerations"),
+        _rates(tr_later("Joint accelerations"), "qdd", "/s²", "max_acceleration"),
+    ),
+    PlotKind("jerk", "q‴", tr_later("Jerks of the joints"), _rates(tr_later("Joint jerks"), "jerk", "/s³")),
+    PlotKind("tool", tr_later("Tool"), tr_later("Where the tool is, and where the path wants it"), _place),
+    PlotKind("speed", tr_later("Speed"), tr_later("How fast the tool goes"), _speed),
+    PlotKind("torque", "τ", tr_later("Torques: what the joints must give"), _torque),
+    PlotKind("sigma", "σ", tr_later("Smallest singular value: how near to a singularity"), _sigma),
+    PlotKind("deviation", tr_later("Off path"), tr_later("Deviation: how far the tool is from the path"), _deviation),
 )

@@ -25,6 +25,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_number
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
+from rvsim.language import tr, tr_later
 from rvsim.motion import Trajectory
 from rvsim.playback.curves import Curves, curves_of
 
@@ -33,8 +34,8 @@ if TYPE_CHECKING:
 
 _MOST_SHOWN = 6
 _IN_ROW = 3
-_EMPTY = "No motion yet: press Track line, or track a trajectory, and its curves are drawn here."
-_READOUT_TIP = (
+_EMPTY = tr_later("No motion yet: press Track line, or track a trajectory, and its curves are drawn here.")
+_READOUT_TIP = tr_later(
     "Values at the cursor of the curves that the mouse was in last, and the largest of the whole motion. "
     "▾ beside a curve: near a singularity, or a jump to another branch."
 )
@@ -167,7 +168,7 @@ class PlotsPanel(QWidget):
         trajectory = self._motion.player.trajectory
         there = isinstance(trajectory, Trajectory)
         self.empty.setVisible(not there or not self.chosen)
-        self.empty.setText(_EMPTY if not there else "Choose above which curves are to be drawn.")
+        self.empty.setText(_EMPTY if not there else tr("Choose above which curves are to be drawn."))
         self._curves = None
         if isinstance(trajectory, Trajectory):
             self._curves = curves_of(self._session.robot, trajectory, self._session.tracking)
@@ -213,7 +214,14 @@ class PlotsPanel(QWidget):
         if largest is not None:
             name, value, time = largest
             at = f"({name.partition(' ')[0]}, at {format_number(time, 2)} s)"
-            parts.append(f"largest {format_number(value, _DECIMALS)}{unit} {at}")
+            parts.append(
+                tr(
+                    "largest {format_number}{unit} {at}",
+                    format_number=format_number(value, _DECIMALS),
+                    unit=unit,
+                    at=at,
+                )
+            )
         self.readout.setText("&nbsp; ".join(parts))
         self.readout.setToolTip(_READOUT_TIP)
 

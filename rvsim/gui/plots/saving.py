@@ -13,13 +13,14 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox, QWidget
 
 from rvsim.errors import FileWriteError
 from rvsim.files.atomic import write_atomically
+from rvsim.language import tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.gui.plots.time_plot import TimePlot
 
 _FINER = 2  # pixels of a PNG for one of the screen
 _MARGIN, _STROKE, _LEFT = 5, 18, 52  # [pixels] of the legend
-_KINDS = "Picture (*.png);;Drawing (*.svg)"
+_KINDS = tr_later("Picture (*.png);;Drawing (*.svg)")
 
 
 def plot_image(plot: TimePlot) -> QImage:
@@ -41,7 +42,14 @@ def save_plot(plot: TimePlot, path: str | Path) -> None:
     file = Path(path)
     makers: dict[str, Callable[[TimePlot], bytes]] = {".png": _png, ".svg": _svg}
     if file.suffix.lower() not in makers:
-        raise FileWriteError(file, f"“{file.suffix}” is no ending of a picture of curves. Known: {', '.join(makers)}")
+        raise FileWriteError(
+            file,
+            tr(
+                "“{suffix}” is no ending of a picture of curves. Known: {makers}",
+                suffix=file.suffix,
+                makers=", ".join(makers),
+            ),
+        )
     try:
         write_atomically(file, makers[file.suffix.lower()](plot))
     except OSError as problem:
@@ -58,23 +66,23 @@ def plot_menu(plot: TimePlot) -> QMenu:
     menu = QMenu(plot)
     menu.setObjectName("plot_menu")
     menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-    menu.addAction("Save as …", lambda: ask_save_plot(plot)).setObjectName("plot_save")
-    menu.addAction("Copy", lambda: copy_plot(plot)).setObjectName("plot_copy")
+    menu.addAction(tr("Save as …"), lambda: ask_save_plot(plot)).setObjectName("plot_save")
+    menu.addAction(tr("Copy"), lambda: copy_plot(plot)).setObjectName("plot_copy")
     return menu
 
 
 def ask_save_plot(plot: TimePlot, parent: QWidget | None = None) -> None:
     """Ask for a place and save it there."""
     name = plot.accessibleName().split(" over")[0].replace(" ", "-") or "curves"
-    start = str(Path.home() / f"{name}.png")
-    file, kind = QFileDialog.getSaveFileName(parent or plot.window(), "Save curves", start, _KINDS)
+    start = str(Path.home() / tr("{name}.png", name=name))
+    file, kind = QFileDialog.getSaveFileName(parent or plot.window(), tr("Save curves"), start, _KINDS)
     if not file:
         return
     path = Path(file) if Path(file).suffix else Path(file).with_suffix(".svg" if "svg" in kind else ".png")
     try:
         save_plot(plot, path)
     except FileWriteError as problem:
-        box = QMessageBox(QMessageBox.Icon.Warning, "rvsim", "Nothing was written.", parent=plot.window())
+        box = QMessageBox(QMessageBox.Icon.Warning, "rvsim", tr("Nothing was written."), parent=plot.window())
         box.setObjectName("file_problem")
         box.setInformativeText(str(problem))
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

@@ -26,6 +26,7 @@ from rvsim.gui.plots.catalogue import Band, Drawing, Line
 from rvsim.gui.plots.saving import plot_menu
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.theme import THEMES, Theme
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 
 _AXIS_WIDTH = 52
@@ -65,14 +66,14 @@ class TimePlot(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(96, 84)
         self.setCursor(Qt.CursorShape.SplitHCursor)
-        self.setToolTip("Click or drag to go to that moment")
+        self.setToolTip(tr("Click or drag to go to that moment"))
 
     # --- what is shown ---------------------------------------------------------------------------------------------
 
     def show_drawing(self, drawing: Drawing, times: FloatArray, marks: tuple[float, ...]) -> None:
         """Show curves over times (m,) [s], with marks at some of them."""
         self._drawing, self._times, self._marks = drawing, times, marks
-        self.setAccessibleName(f"{drawing.title} over time")
+        self.setAccessibleName(tr("{title} over time", title=drawing.title))
         self.repaint_curves()
 
     def set_time(self, time: float) -> None:

@@ -11,10 +11,19 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from rvsim.gui.renderers.base import Renderer
 from rvsim.gui.renderers.opengl_context import OpenGLProbe
+from rvsim.language import tr, tr_later
 from rvsim.scene import Camera, Scene
 
 PLATFORMS_WITHOUT_OPENGL = frozenset({"offscreen", "minimal", "vnc", "linuxfb"})
-SOFTWARE_NAMES = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software rasterizer", "warp", "basic render")
+SOFTWARE_NAMES = (
+    "llvmpipe",
+    "softpipe",
+    "swrast",
+    "swiftshader",
+    tr_later("software rasterizer"),
+    "warp",
+    tr_later("basic render"),
+)
 _OLDEST = (2, 1)
 _SAMPLES = 4
 
@@ -35,11 +44,11 @@ def is_software(probe: OpenGLProbe) -> bool:
 
 # What makes OpenGL unusable, in the order in which it can be asked.
 _OBSTACLES: tuple[tuple[Callable[[OpenGLProbe], bool], str], ...] = (
-    (lambda probe: not probe.created, "this system gives no OpenGL context"),
-    (lambda probe: not probe.current, "the OpenGL context of this system cannot be used"),
-    (lambda probe: probe.version < _OLDEST, "the OpenGL of this system is older than 2.1"),
-    (lambda probe: "gdi generic" in probe.renderer.lower(), "this Windows has no graphics driver"),
-    (lambda probe: probe.embedded, "this system has OpenGL ES only"),
+    (lambda probe: not probe.created, tr_later("this system gives no OpenGL context")),
+    (lambda probe: not probe.current, tr_later("the OpenGL context of this system cannot be used")),
+    (lambda probe: probe.version < _OLDEST, tr_later("the OpenGL of this system is older than 2.1")),
+    (lambda probe: "gdi generic" in probe.renderer.lower(), tr_later("this Windows has no graphics driver")),
+    (lambda probe: probe.embedded, tr_later("this system has OpenGL ES only")),
 )
 
 
@@ -52,27 +61,38 @@ def choose_renderer(wanted: str, platform_name: str, probe: Callable[[], OpenGLP
         probe: asks the system for OpenGL; called only if the answer can matter.
     """
     if wanted == "painter":
-        return Choice("painter", "The painter draws, as wished.", "OpenGL was not asked for")
+        return Choice("painter", tr("The painter draws, as wished."), tr("OpenGL was not asked for"))
     if platform_name in PLATFORMS_WITHOUT_OPENGL:
-        return _without_opengl(wanted, f"the platform {platform_name!r} has no OpenGL", "")
+        return _without_opengl(
+            wanted, tr("the platform {platform_name!r} has no OpenGL", platform_name=platform_name), ""
+        )
     return _judge(wanted, probe())
 
 
 def _judge(wanted: str, probe: OpenGLProbe) -> Choice:
-    details = f"OpenGL {probe.version[0]}.{probe.version[1]}, {probe.renderer}" if probe.current else ""
+    details = (
+        tr(
+            "OpenGL {version}.{version2}, {renderer}",
+            version=probe.version[0],
+            version2=probe.version[1],
+            renderer=probe.renderer,
+        )
+        if probe.current
+        else ""
+    )
     for holds, obstacle in _OBSTACLES:
         if holds(probe):
             return _without_opengl(wanted, obstacle, details)
     if not is_software(probe):
-        return Choice("gl", "OpenGL draws on the graphics card.", details, _SAMPLES)
+        return Choice("gl", tr("OpenGL draws on the graphics card."), details, _SAMPLES)
     if wanted == "gl":
-        return Choice("gl", "OpenGL draws in software, as wished.", details)
-    return Choice("painter", "The painter draws: OpenGL is only emulated here, and the painter is faster.", details)
+        return Choice("gl", tr("OpenGL draws in software, as wished."), details)
+    return Choice("painter", tr("The painter draws: OpenGL is only emulated here, and the painter is faster."), details)
 
 
 def _without_opengl(wanted: str, obstacle: str, details: str) -> Choice:
-    wish = "OpenGL was wished, but " if wanted == "gl" else ""
-    return Choice("painter", f"The painter draws: {wish}{obstacle}.", details)
+    wish = tr("OpenGL was wished, but ") if wanted == "gl" else ""
+    return Choice("painter", tr("The painter draws: {wish}{obstacle}.", wish=wish, obstacle=obstacle), details)
 
 
 def renderer_factory(choice: Choice, on_change: Callable[[str], None] | None = None) -> Callable[[QWidget], Renderer]:
@@ -92,7 +112,7 @@ def _make_painter(parent: QWidget) -> Renderer:
 
 
 def _broken(reason: object) -> str:
-    return f"The painter draws: OpenGL failed ({reason})."
+    return tr("The painter draws: OpenGL failed ({reason}).", reason=reason)
 
 
 class ResilientRenderer(QObject):

@@ -21,6 +21,7 @@ from rvsim.gui.renderers.opengl_labels import LabelLayer
 from rvsim.gui.renderers.opengl_shadow import ShadowLayer
 from rvsim.gui.renderers.opengl_strokes import StrokeLayer
 from rvsim.gui.renderers.painter_ink import qcolor
+from rvsim.language import tr
 from rvsim.scene import Box, Camera, Capsule, Color, Dots, Labels, Polyline, Scene, Segments, Triads
 from rvsim.scene.floor import FLOOR_KEY
 from rvsim.scene.gizmo import GIZMO_KEY
@@ -37,7 +38,7 @@ class NothingPaintedError(RvsimError):
     """OpenGL reports no error, and yet the picture is not there."""
 
     def __init__(self) -> None:
-        super().__init__("it reports no error but paints nothing")
+        super().__init__(tr("it reports no error but paints nothing"))
 
 
 def _canvas(width: int, height: int, samples: int) -> QOpenGLFramebufferObject:
@@ -278,7 +279,12 @@ class OpenGLRenderer:
         self._view = OpenGLView(parent, samples)
         probe = probe_opengl()
         self.name = "opengl"
-        self.description = f"OpenGL {probe.version[0]}.{probe.version[1]}, {probe.renderer}"
+        self.description = tr(
+            "OpenGL {version}.{version2}, {renderer}",
+            version=probe.version[0],
+            version2=probe.version[1],
+            renderer=probe.renderer,
+        )
         self.failed = self._view.failed
 
     def widget(self) -> QWidget:

@@ -29,6 +29,7 @@ from rvsim.gui.renderers.painter_raster import SolidPicture, render_solids
 from rvsim.gui.renderers.painter_shadow import draw_shadow
 from rvsim.gui.renderers.painter_solids import Solid
 from rvsim.gui.renderers.text_layout import Ground, Placed, arranged, floor_texts, is_floor
+from rvsim.language import tr_later
 from rvsim.scene import Box, Camera, Capsule, Color, Dots, Item, Labels, Polyline, Scene, Segments, Triads
 from rvsim.scene.floor import FLOOR_KEY
 from rvsim.scene.gizmo import GIZMO_KEY
@@ -180,7 +181,7 @@ class PainterRenderer(QWidget):
     """
 
     name = "painter"
-    description = "painter (no OpenGL needed)"
+    description = tr_later("painter (no OpenGL needed)")
 
     def __init__(self, parent: QWidget | None = None, rest: float = 0.12) -> None:
         super().__init__(parent)

@@ -24,6 +24,7 @@ from rvsim.lab.report.html import html_parts
 from rvsim.lab.report.values import Document
 from rvsim.lab.script import motion_script, tracking_script
 from rvsim.lab.tables import tracking_csv
+from rvsim.language import tr
 from rvsim.scene import Camera
 from rvsim.scene.build import SceneOptions, scene_bounds
 from rvsim.scene.palette import LIGHT
@@ -69,7 +70,7 @@ def write_bundle(study: Study, order: Order) -> Iterator[Progress]:
     draft = _draft_beside(order.folder)
     try:
         yield from _filled(study, order, draft)
-        yield Progress(0.99, "Putting the folder in its place")
+        yield Progress(0.99, tr("Putting the folder in its place"))
         _put_in_place(draft, order)
     except OSError as problem:
         if isinstance(problem, FileWriteError):
@@ -82,9 +83,9 @@ def write_bundle(study: Study, order: Order) -> Iterator[Progress]:
 def _draft_beside(folder: Path) -> Path:
     """A hidden folder next to where the bundle is to be: a rename must not cross file systems."""
     if folder.exists() or folder.is_symlink():
-        raise FileWriteError(folder, "there is something of that name already; choose another name")
+        raise FileWriteError(folder, tr("there is something of that name already; choose another name"))
     if not folder.parent.is_dir():
-        raise FileWriteError(folder, f"there is no folder “{folder.parent}”")
+        raise FileWriteError(folder, tr("there is no folder “{parent}”", parent=folder.parent))
     try:
         return Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
     except OSError as problem:
@@ -128,15 +129,15 @@ def _filled(study: Study, order: Order, draft: Path) -> Iterator[Progress]:
     words = {name: file.what for name, file in files.items()}
     animated = order.animation and study.motion is not None
     if animated:
-        words["animation.gif"] = "the motion as a moving picture"
+        words["animation.gif"] = tr("the motion as a moving picture")
     begin = 0.0
     for name, file in files.items():
-        yield Progress(begin, f"Writing {name}")
+        yield Progress(begin, tr("Writing {name}", name=name))
         (draft / name).write_bytes(file.make())
     if animated:
         yield from _scaled(_animation(study, draft / "animation.gif"), 0.02, 0.45)
         begin = 0.45
-    yield Progress(begin, "Working the report out")
+    yield Progress(begin, tr("Working the report out"))
     document = build(study, order.cover, order.parts, words)
     yield from _scaled(_page(document, draft / "report.html"), begin, begin + 0.35 * (1.0 - begin))
     yield from _scaled(_paper(document, draft / "report.pdf"), begin + 0.35 * (1.0 - begin), 0.98)
@@ -149,18 +150,26 @@ def _scaled(parts: Iterator[Progress], begin: float, end: float) -> Iterator[Pro
 
 def _files(study: Study, order: Order) -> dict[str, _File]:
     """The small ones."""
-    found = {"script.py": _File("works the numbers out once more, with Python and NumPy alone", lambda: _script(study))}
+    found = {
+        "script.py": _File(tr("works the numbers out once more, with Python and NumPy alone"), lambda: _script(study))
+    }
     tracking, curves, recording = study.tracking, study.curves, study.recording
     if tracking is not None:
-        found["path.csv"] = _File("the points of the path with their joints", lambda: tracking_csv(tracking).encode())
+        found["path.csv"] = _File(
+            tr("the points of the path with their joints"), lambda: tracking_csv(tracking).encode()
+        )
     if curves is not None:
-        found["motion.csv"] = _File("joints, their rates and the tool over time", lambda: motion_csv(curves).encode())
+        found["motion.csv"] = _File(
+            tr("joints, their rates and the tool over time"), lambda: motion_csv(curves).encode()
+        )
     if recording is not None and not recording.empty:
         table = recording_csv(study.robot, recording)
-        found["measured.csv"] = _File(f"what was desired, commanded and {recording.back_word}", table.encode)
+        found["measured.csv"] = _File(
+            tr("what was desired, commanded and {back}", back=recording.back_word), table.encode
+        )
     session = order.session
     if session is not None:
-        found["experiment.rvsim"] = _File("the experiment itself, for rvsim to open", lambda: session)
+        found["experiment.rvsim"] = _File(tr("the experiment itself, for rvsim to open"), lambda: session)
     return found
 
 
@@ -174,10 +183,10 @@ def _script(study: Study) -> bytes:
 
 def _page(document: Document, file: Path) -> Iterator[Progress]:
     parts, total = [], sum(1 for _ in document.blocks()) + 2 * len(document.sections) + 3
-    yield Progress(0.0, "Drawing the page")
+    yield Progress(0.0, tr("Drawing the page"))
     for number, part in enumerate(html_parts(document, PageArtist())):
         parts.append(part)
-        yield Progress(number / total, "Drawing the page")
+        yield Progress(number / total, tr("Drawing the page"))
     file.write_text("".join(parts), encoding="utf-8")
 
 
@@ -185,9 +194,12 @@ def _paper(document: Document, file: Path) -> Iterator[Progress]:
     sheets = Sheets(document)
     blocks = sum(1 for _ in document.blocks())
     for number, _ in enumerate(sheets.lay_out()):
-        yield Progress(0.5 * min(number / (3 * blocks), 1.0), "Setting the pages")
+        yield Progress(0.5 * min(number / (3 * blocks), 1.0), tr("Setting the pages"))
     for number, _ in enumerate(write_pdf(sheets, file), 1):
-        yield Progress(0.5 + 0.5 * number / len(sheets.pages), f"Printing page {number} of {len(sheets.pages)}")
+        yield Progress(
+            0.5 + 0.5 * number / len(sheets.pages),
+            tr("Printing page {number} of {count}", number=number, count=len(sheets.pages)),
+        )
 
 
 def _animation(study: Study, file: Path) -> Iterator[Progress]:
@@ -198,8 +210,8 @@ def _animation(study: Study, file: Path) -> Iterator[Progress]:
     )
     animation = Animation(motion, _picturing(study), settings)
     while animation.step():
-        yield Progress(0.95 * animation.share, "Painting the animation")
-    yield Progress(0.95, "Writing the animation")
+        yield Progress(0.95 * animation.share, tr("Painting the animation"))
+    yield Progress(0.95, tr("Writing the animation"))
     save_animation(animation.encode(".gif"), file)
 
 

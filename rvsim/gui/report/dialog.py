@@ -32,13 +32,14 @@ from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, form
 from rvsim.lab.report import PARTS, Cover, Study, parts_of, title_of
+from rvsim.language import tr, tr_later
 
 _MISSING = {
-    "steps": "This arm has no closed form.",
-    "path": "Track a line or a trajectory first.",
-    "motion": "Track a line or a trajectory, or run a program first.",
-    "measured": "Let a motion run on an arm first, a virtual one will do.",
-    "sources": "No formula of the sources about this arm is known to be wrong.",
+    "steps": tr_later("This arm has no closed form."),
+    "path": tr_later("Track a line or a trajectory first."),
+    "motion": tr_later("Track a line or a trajectory, or run a program first."),
+    "measured": tr_later("Let a motion run on an arm first, a virtual one will do."),
+    "sources": tr_later("No formula of the sources about this arm is known to be wrong."),
 }
 
 
@@ -50,7 +51,7 @@ class ReportDialog(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setObjectName("report_dialog")
-        self.setWindowTitle("Lab report")
+        self.setWindowTitle(tr("Lab report"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._preferences, self._study, self._state = session, preferences, study, state
         self._work: Iterator[Progress] | None = None
@@ -65,18 +66,18 @@ class ReportDialog(QDialog):
 
     def _make_cover(self) -> None:
         notes = self._study.experiment.notes
-        self.title_box = _line("report_title", "Title", title_of(self._study))
-        self.name_box = _line("report_name", "Your name", notes.student or str(self._preferences["student"]))
-        self.name_box.setPlaceholderText("Your name")
-        today = QLocale(QLocale.Language.English).toString(QDate.currentDate(), "d MMMM yyyy")
-        self.date_box = _line("report_date", "Date", today)
+        self.title_box = _line("report_title", tr("Title"), title_of(self._study))
+        self.name_box = _line("report_name", tr("Your name"), notes.student or str(self._preferences["student"]))
+        self.name_box.setPlaceholderText(tr("Your name"))
+        today = QLocale(QLocale.Language.English).toString(QDate.currentDate(), tr("d MMMM yyyy"))
+        self.date_box = _line("report_date", tr("Date"), today)
         self.notes_box = QPlainTextEdit(notes.text)
         self.notes_box.setObjectName("report_notes")
-        self.notes_box.setAccessibleName("Notes")
-        self.notes_box.setPlaceholderText("What you did and what you found; it stands below the title.")
+        self.notes_box.setAccessibleName(tr("Notes"))
+        self.notes_box.setPlaceholderText(tr("What you did and what you found; it stands below the title."))
         self.notes_box.setFixedHeight(72)
         folder = free_folder(Path.home(), f"report-{self._study.robot.name}")
-        self.folder_box = _line("report_folder", "Folder to be made", str(folder))
+        self.folder_box = _line("report_folder", tr("Folder to be made"), str(folder))
 
     def _make_parts(self) -> None:
         there = parts_of(self._study)
@@ -88,22 +89,24 @@ class ReportDialog(QDialog):
             box.setEnabled(part.name in there)
             box.setToolTip("" if part.name in there else _MISSING.get(part.name, ""))
             self.parts[part.name] = box
-        self.animation = QCheckBox("Animation of the motion (GIF)")
+        self.animation = QCheckBox(tr("Animation of the motion (GIF)"))
         self.animation.setObjectName("report_animation")
         self.animation.setEnabled(self._study.motion is not None)
-        self.zipped = QCheckBox("A .zip of it all as well")
+        self.zipped = QCheckBox(tr("A .zip of it all as well"))
         self.zipped.setObjectName("report_zip")
 
     def _lay_out(self) -> None:
         rows = form()
-        rows.addRow("Title", self.title_box)
-        rows.addRow("Name", self.name_box)
-        rows.addRow("Date", self.date_box)
-        rows.addRow("Notes", self.notes_box)
-        rows.addRow("Folder", self._folder_row())
+        rows.addRow(tr("Title"), self.title_box)
+        rows.addRow(tr("Name"), self.name_box)
+        rows.addRow(tr("Date"), self.date_box)
+        rows.addRow(tr("Notes"), self.notes_box)
+        rows.addRow(tr("Folder"), self._folder_row())
         self.status = wrapped_label("muted")
         self.status.setObjectName("report_status")
-        self.status.setText("HTML and PDF, the tables as CSV, a NumPy script that works it out anew, and the session.")
+        self.status.setText(
+            tr("HTML and PDF, the tables as CSV, a NumPy script that works it out anew, and the session.")
+        )
         column = QVBoxLayout(self)
         column.setSpacing(8)
         column.addLayout(rows)
@@ -113,7 +116,7 @@ class ReportDialog(QDialog):
         self.setMinimumWidth(620)
 
     def _parts_group(self) -> QGroupBox:
-        group = QGroupBox("What is in it")
+        group = QGroupBox(tr("What is in it"))
         grid = QGridLayout(group)
         boxes = [*self.parts.values(), self.animation, self.zipped]
         half = (len(boxes) + 1) // 2
@@ -126,10 +129,12 @@ class ReportDialog(QDialog):
         self.progress.setObjectName("report_progress")
         self.progress.setRange(0, 1000)
         self.progress.setVisible(False)
-        self.start_button = button("report_start", "Make the report", "Write all of it", self.start, primary=True)
-        self.open_button = button("report_open", "Open the folder", "In the file manager", self._open)
+        self.start_button = button(
+            "report_start", tr("Make the report"), tr("Write all of it"), self.start, primary=True
+        )
+        self.open_button = button("report_open", tr("Open the folder"), tr("In the file manager"), self._open)
         self.open_button.setVisible(False)
-        self.cancel_button = button("report_cancel", "Close", "Give up, or close", self.give_up)
+        self.cancel_button = button("report_cancel", tr("Close"), tr("Give up, or close"), self.give_up)
         row = QHBoxLayout()
         row.addWidget(self.progress, 1)
         row.addStretch(0)
@@ -140,12 +145,12 @@ class ReportDialog(QDialog):
     def _folder_row(self) -> QHBoxLayout:
         row = QHBoxLayout()
         row.addWidget(self.folder_box, 1)
-        row.addWidget(button("report_browse", "…", "Choose the folder that it is put into", self._browse))
+        row.addWidget(button("report_browse", "…", tr("Choose the folder that it is put into"), self._browse))
         return row
 
     def _browse(self) -> None:
         now = Path(self.folder_box.text())
-        chosen = QFileDialog.getExistingDirectory(self, "Put the report into", str(now.parent))
+        chosen = QFileDialog.getExistingDirectory(self, tr("Put the report into"), str(now.parent))
         if chosen:
             self.folder_box.setText(str(free_folder(Path(chosen), now.name)))
 
@@ -193,7 +198,7 @@ class ReportDialog(QDialog):
             self.close()
             return
         self._stop()
-        self._tell("Given up; nothing was written.", "muted")
+        self._tell(tr("Given up; nothing was written."), "muted")
 
     def _stop(self) -> None:
         self._slice.stop()
@@ -209,7 +214,7 @@ class ReportDialog(QDialog):
             progress = next(self._work, None)
         except RvsimError as problem:
             self._stop()
-            self._tell(f"Not made. {problem}", "error")
+            self._tell(tr("Not made. {problem}", problem=problem), "error")
             return
         if progress is None:
             self._stop()
@@ -220,9 +225,9 @@ class ReportDialog(QDialog):
 
     def _tell_done(self) -> None:
         assert self._done is not None, "something was begun"
-        archive = f" and {zip_of(self._done).name}" if self.zipped.isChecked() else ""
-        self._tell(f"Made: {self._done}{archive}.", "muted")
-        self._session.say(f"Saved the report in {self._done}.")
+        archive = tr(" and {name}", name=zip_of(self._done).name) if self.zipped.isChecked() else ""
+        self._tell(tr("Made: {done}{archive}.", done=self._done, archive=archive), "muted")
+        self._session.say(tr("Saved the report in {done}.", done=self._done))
         self.open_button.setVisible(True)
         self.folder_box.setText(str(free_folder(self._done.parent, self._done.name)))  # for the next one
 
@@ -231,7 +236,7 @@ class ReportDialog(QDialog):
         self.progress.setValue(0)
         self.start_button.setEnabled(not working)
         self.open_button.setVisible(False)
-        self.cancel_button.setText("Cancel" if working else "Close")
+        self.cancel_button.setText(tr("Cancel") if working else tr("Close"))
         if working:
             self.status.setText("")
 

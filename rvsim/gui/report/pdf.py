@@ -14,6 +14,7 @@ from rvsim.gui.report.pages import Page, paginated
 from rvsim.gui.report.strips import Strip, section_strips, text_strips
 from rvsim.gui.report.typography import MUTED, RULE, Text, text_width
 from rvsim.lab.report.values import Cover, Document
+from rvsim.language import tr
 
 PAGE = (595.0, 842.0)  # A4 [pt]
 MARGIN = (71.0, 74.0, 71.0, 70.0)  # left, top, right, bottom
@@ -60,7 +61,7 @@ class Sheets:
 
     def _footer(self, painter: QPainter, number: int) -> None:
         y = PAGE[1] - MARGIN[3] + 26.0
-        page = Text(f"Page {number + 1} of {len(self.pages)}", faces.SMALL, 100.0)
+        page = Text(tr("Page {number} of {count}", number=number + 1, count=len(self.pages)), faces.SMALL, 100.0)
         page.draw(painter, MARGIN[0] + WIDTH - page.width, y)
         Text(self.document.cover.date, faces.SMALL, 0.5 * WIDTH).draw(painter, MARGIN[0], y)
 
@@ -74,7 +75,7 @@ def _shortened(text: str, width: float) -> str:
 
 
 def _title_strips(cover: Cover) -> Iterator[Strip]:
-    yield from text_strips("LABORATORY REPORT", faces.SMALL, WIDTH, above=0.0)
+    yield from text_strips(tr("LABORATORY REPORT"), faces.SMALL, WIDTH, above=0.0)
     yield from text_strips(cover.title, faces.TITLE, WIDTH, above=3.0)
     who = " · ".join(f"{_ISOLATE}{text}{_AGAIN}" for text in (cover.author, cover.date) if text)
     if who:
@@ -107,11 +108,11 @@ def write_pdf(sheets: Sheets, path: Path) -> Iterator[None]:
     )
     painter = QPainter()
     if not painter.begin(writer):
-        raise FileWriteError(path, "the file cannot be opened for writing")
+        raise FileWriteError(path, tr("the file cannot be opened for writing"))
     try:
         for number in range(len(sheets.pages)):
             if number and not writer.newPage():
-                raise FileWriteError(path, "the disk may be full")
+                raise FileWriteError(path, tr("the disk may be full"))
             painter.save()
             painter.scale(_RESOLUTION / 72.0, _RESOLUTION / 72.0)
             sheets.paint(painter, number)

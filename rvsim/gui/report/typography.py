@@ -20,13 +20,28 @@ from PySide6.QtGui import (
 )
 
 from rvsim.lab.report.values import Run, Words, runs
+from rvsim.language import tr, tr_later
 
 FINE = 20.0  # text is set in twentieths of a point, so that rounding is not seen
 INK, MUTED, RULE = QColor("#1D2733"), QColor("#566373"), QColor("#1D2733")
 ACCENT = QColor("#2F55D4")
 _COLORS = {"good": QColor("#00664B"), "warning": QColor("#8A4B00"), "bad": QColor("#B3261E"), "muted": MUTED}
-_SANS = ["Helvetica Neue", "Helvetica", "Arial", "Liberation Sans", "Nimbus Sans", "DejaVu Sans"]
-_MONO = ["DejaVu Sans Mono", "Consolas", "Menlo", "Liberation Mono", "Courier New", "monospace"]
+_SANS = [
+    tr_later("Helvetica Neue"),
+    "Helvetica",
+    "Arial",
+    tr_later("Liberation Sans"),
+    tr_later("Nimbus Sans"),
+    tr_later("DejaVu Sans"),
+]
+_MONO = [
+    tr_later("DejaVu Sans Mono"),
+    "Consolas",
+    "Menlo",
+    tr_later("Liberation Mono"),
+    tr_later("Courier New"),
+    "monospace",
+]
 
 
 class Face(NamedTuple):
@@ -57,7 +72,14 @@ def serif_families() -> list[str]:
     with resources.as_file(resources.files("ziamath") / "fonts" / "STIXTwoMath-Regular.ttf") as file:
         number = QFontDatabase.addApplicationFont(str(file))
     own = QFontDatabase.applicationFontFamilies(number) if number >= 0 else []
-    return ["STIX Two Text", *own, "Times New Roman", "Liberation Serif", "Nimbus Roman", "DejaVu Serif"]
+    return [
+        tr("STIX Two Text"),
+        *own,
+        tr("Times New Roman"),
+        tr("Liberation Serif"),
+        tr("Nimbus Roman"),
+        tr("DejaVu Serif"),
+    ]
 
 
 @cache

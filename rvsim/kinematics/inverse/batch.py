@@ -10,6 +10,7 @@ from rvsim.kinematics.inverse.chain import Chain
 from rvsim.kinematics.inverse.closed_form import ClosedForm
 from rvsim.kinematics.inverse.families import closed_form, five_axis
 from rvsim.kinematics.inverse.projection import nearest_orientation
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray, floats
 
@@ -34,7 +35,7 @@ def inverse_kinematics_batch(robot: Robot, T: ArrayLike, *, project: bool = Fals
         raise ShapeError("T", "(m, 4, 4)", poses.shape)
     form = closed_form(robot)
     if project:
-        poses = nearest_orientation(five_axis(form, "an orientation is projected").chain, poses)
+        poses = nearest_orientation(five_axis(form, tr("an orientation is projected")).chain, poses)
     q = np.empty((len(poses), len(form.labels), robot.dof))
     for start in range(0, len(poses), BLOCK):
         block = slice(start, start + BLOCK)
@@ -64,7 +65,9 @@ def nearest_feasible_poses(robot: Robot, T: ArrayLike) -> FloatArray:
     Raises:
         NoClosedFormError: it is no such arm, or its tool tip lies beside the roll axis.
     """
-    return nearest_orientation(five_axis(closed_form(robot), "an orientation is projected").chain, floats("T", T, 4, 4))
+    return nearest_orientation(
+        five_axis(closed_form(robot), tr("an orientation is projected")).chain, floats("T", T, 4, 4)
+    )
 
 
 def solve_block(form: ClosedForm, poses: FloatArray, free: FloatArray) -> FloatArray:

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from rvsim.kinematics.inverse.copies import LIMIT_TOLERANCE
+from rvsim.language import tr
 from rvsim.robot import Joint
 
 if TYPE_CHECKING:
@@ -46,9 +47,11 @@ def explain(failure: Failure, angle: Scale = DEGREES, length: Scale = MILLIMETRE
         return _explain_limits(failure, angle, own)
     if failure.kind == "orientation":
         turn, _ = angle.apart(failure.nearest.rotation_error, 0.0)
-        return f"The place can be reached, but not in this orientation: the nearest there is turned by {turn}."
+        return tr(
+            "The place can be reached, but not in this orientation: the nearest there is turned by {turn}.", turn=turn
+        )
     away, _ = own.apart(failure.nearest.position_error, 0.0)
-    return f"The place is out of reach: the nearest the tool gets is {away} away."
+    return tr("The place is out of reach: the nearest the tool gets is {away} away.", away=away)
 
 
 def _explain_limits(failure: Failure, angle: Scale, length: Scale) -> str:
@@ -61,13 +64,17 @@ def _explain_limits(failure: Failure, angle: Scale, length: Scale) -> str:
         )
         if margin < -LIMIT_TOLERANCE
     ]
-    which = "The only branch is outside the limits" if count == 1 else f"All {count} branches are outside the limits"
-    return f"{which}; nearest is “{branch.label}”: {'; '.join(broken)}."
+    which = (
+        tr("The only branch is outside the limits")
+        if count == 1
+        else tr("All {count} branches are outside the limits", count=count)
+    )
+    return tr("{which}; nearest is “{label}”: {broken}.", which=which, label=branch.label, broken="; ".join(broken))
 
 
 def _explain_joint(joint: Joint, value: float, scale: Scale) -> str:
     needed, stop = scale.apart(value, broken_limit(joint, value))
-    return f"{joint.name} needs {needed}, stops at {stop}"
+    return tr("{name} needs {needed}, stops at {stop}", name=joint.name, needed=needed, stop=stop)
 
 
 def broken_limit(joint: Joint, value: float) -> float:

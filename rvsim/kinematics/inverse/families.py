@@ -12,6 +12,7 @@ from rvsim.kinematics.inverse.rrrp import RollAndExtend
 from rvsim.kinematics.inverse.spherical_wrist import SphericalWrist
 from rvsim.kinematics.inverse.textbook import Articulated, Cartesian, Cylindrical, Planar, Scara, Spherical
 from rvsim.kinematics.inverse.ur import ParallelAxes
+from rvsim.language import tr
 from rvsim.robot import Robot
 
 FAMILIES: tuple[type[ClosedForm], ...] = (
@@ -44,7 +45,10 @@ def closed_form(robot: Robot) -> ClosedForm:
                 return family(chain)
             failures.append(f"as {_article(family.title)}, {failure}")
     known = ", ".join(sorted({family.joints for family in FAMILIES}))
-    raise NoClosedFormError(robot.name, " ".join(failures) or f"its joints are {chain.joints}; known are {known}.")
+    raise NoClosedFormError(
+        robot.name,
+        " ".join(failures) or tr("its joints are {joints}; known are {known}.", joints=chain.joints, known=known),
+    )
 
 
 def _article(title: str) -> str:
@@ -67,5 +71,7 @@ def five_axis(form: ClosedForm, purpose: str) -> FiveAxis:
         NoClosedFormError: it is none; `purpose` says what only such an arm can do, for instance "a pitch is free".
     """
     if not isinstance(form, FiveAxis):
-        raise NoClosedFormError(form.chain.robot.name, f"{purpose} only for a {FiveAxis.title}.")
+        raise NoClosedFormError(
+            form.chain.robot.name, tr("{purpose} only for a {title}.", purpose=purpose, title=FiveAxis.title)
+        )
     return form

@@ -17,6 +17,7 @@ from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, is_zero,
 from rvsim.kinematics.inverse.elbow import Elbow, Mask, elbow_up, empty_rows, erase, links_reach, solve_elbow
 from rvsim.kinematics.inverse.projection import has_tip_on_roll_axis
 from rvsim.kinematics.inverse.words import ELBOW, combine, side_names
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
 FEASIBLE = 1e-9  # [rad] how far the tool axis may lean out of the plane; the same of the arm's size for the tip
@@ -35,7 +36,7 @@ class Plane(NamedTuple):
 class FiveAxis(ClosedForm):
     """Waist, three parallel axes, roll."""
 
-    title = "5R arm with a waist, three parallel axes and a roll"
+    title = tr_later("5R arm with a waist, three parallel axes and a roll")
     joints = "RRRRR"
 
     @classmethod
@@ -47,7 +48,7 @@ class FiveAxis(ClosedForm):
         yield right_angle(chain, 3)
         yield long_enough(chain, 1)
         yield long_enough(chain, 2)
-        yield is_zero(chain.d[1:4].sum()), "the offsets d along the parallel axes 2, 3 and 4 must cancel."
+        yield is_zero(chain.d[1:4].sum()), tr("the offsets d along the parallel axes 2, 3 and 4 must cancel.")
 
     def __init__(self, chain: Chain) -> None:
         super().__init__(chain)

@@ -11,6 +11,7 @@ from rvsim.errors import ShapeError
 from rvsim.kinematics.inverse.elbow import erase
 from rvsim.kinematics.inverse.families import closed_form, five_axis
 from rvsim.kinematics.inverse.five_axis import FiveAxis
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray, floats
 
@@ -27,12 +28,12 @@ def free_pitch_batch(robot: Robot, p: ArrayLike, pitches: ArrayLike, roll: float
         ShapeError: p is not (m, 3) or the pitches are not (k,).
     """
     form, places, angles = (
-        five_axis(closed_form(robot), "a pitch is free"),
+        five_axis(closed_form(robot), tr("a pitch is free")),
         floats("p", p, 3),
         np.asarray(pitches, dtype=np.float64),
     )
     if places.ndim != 2 or angles.ndim != 1:
-        raise ShapeError("p and pitches", "(m, 3) and (k,)", (*places.shape, *angles.shape))
+        raise ShapeError(tr("p and pitches"), "(m, 3) and (k,)", (*places.shape, *angles.shape))
     return free_pitches(form, places, angles, roll)
 
 

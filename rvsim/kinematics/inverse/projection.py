@@ -10,6 +10,7 @@ import numpy as np
 
 from rvsim.errors import NoClosedFormError
 from rvsim.kinematics.inverse.chain import TOLERANCE, Chain
+from rvsim.language import tr
 from rvsim.spatial import rot_z
 from rvsim.spatial.arrays import FloatArray
 
@@ -64,7 +65,7 @@ def has_tip_on_roll_axis(chain: Chain) -> bool:
 def require_tip_on_roll_axis(chain: Chain) -> None:
     """Raises NoClosedFormError for a tool tip beside the roll axis."""
     if not has_tip_on_roll_axis(chain):
-        raise NoClosedFormError(chain.robot.name, "the tool tip must lie on the roll axis to keep its place.")
+        raise NoClosedFormError(chain.robot.name, tr("the tool tip must lie on the roll axis to keep its place."))
 
 
 def _plane_normals(p: FloatArray, axis: FloatArray) -> FloatArray:

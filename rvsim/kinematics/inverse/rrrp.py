@@ -24,15 +24,16 @@ from rvsim.kinematics.inverse.closed_form import (
 from rvsim.kinematics.inverse.elbow import empty_rows, erase
 from rvsim.kinematics.inverse.extension import extension_labels, solve_extension
 from rvsim.kinematics.inverse.five_axis import FEASIBLE, tool_plane
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
 
 class RollAndExtend(ClosedForm):
     """Waist, shoulder, roll, extension along the roll axis."""
 
-    title = "RRRP arm whose prismatic joint lies on the roll axis"
+    title = tr_later("RRRP arm whose prismatic joint lies on the roll axis")
     joints = "RRRP"
-    labels = ("the only solution",)
+    labels = (tr_later("the only solution"),)
 
     @classmethod
     def conditions(cls, chain: Chain) -> Iterable[Condition]:
@@ -41,7 +42,7 @@ class RollAndExtend(ClosedForm):
         yield right_angle(chain, 1)
         yield parallel(chain, 2)
         yield intersecting(chain, 2)
-        yield is_zero(chain.d[1]), "the offset d along axis 2 must be 0."
+        yield is_zero(chain.d[1]), tr("the offset d along axis 2 must be 0.")
         yield long_enough(chain, 1)
 
     def __init__(self, chain: Chain) -> None:

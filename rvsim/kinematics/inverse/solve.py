@@ -20,6 +20,7 @@ from rvsim.kinematics.inverse.ur import ParallelAxes
 from rvsim.kinematics.inverse.ur_scalar import ScalarParallelAxes
 from rvsim.kinematics.inverse.verdict import branches_of
 from rvsim.kinematics.inverse.why_not import limits_failure, reach_failure
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.spatial import nearest_rotation
 from rvsim.spatial.arrays import FloatArray, floats
@@ -142,11 +143,13 @@ def _pose(T: ArrayLike) -> FloatArray:
     if pose.ndim != 2:
         raise ShapeError("T", "(4, 4)", pose.shape)
     if not np.isfinite(pose).all() or not np.array_equal(pose[3], (0.0, 0.0, 0.0, 1.0)):
-        raise PoseError("its entries must be finite and its last row 0 0 0 1.")
+        raise PoseError(tr("its entries must be finite and its last row 0 0 0 1."))
     R = pose[:3, :3]
     astray = float(np.abs(R.T @ R - np.eye(3)).max())
     if astray > _ROTATION or np.linalg.det(R) < 0.0:
-        raise PoseError(f"its columns are no right-handed, orthogonal unit vectors (off by {astray:.3g}).")
+        raise PoseError(
+            tr("its columns are no right-handed, orthogonal unit vectors (off by {astray:.3g}).", astray=astray)
+        )
     if astray < 1e-14:
         return pose
     mended = pose.copy()

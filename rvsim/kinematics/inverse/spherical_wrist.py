@@ -18,6 +18,7 @@ from rvsim.kinematics.inverse.regional import Regional, regional_conditions
 from rvsim.kinematics.inverse.trigonometry import cosine_and_sine
 from rvsim.kinematics.inverse.waist import Side
 from rvsim.kinematics.inverse.words import ELBOW, combine, side_names, wrist_names
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
 _SINGULAR = 5e-10  # sin θ5: below it axes 4 and 6 are one, and θ4 is free
@@ -26,7 +27,7 @@ _SINGULAR = 5e-10  # sin θ5: below it axes 4 and 6 are one, and θ4 is free
 class SphericalWrist(ClosedForm):
     """Waist, shoulder, elbow, and a wrist of three axes through one point."""
 
-    title = "6R arm with a spherical wrist"
+    title = tr_later("6R arm with a spherical wrist")
     joints = "RRRRRR"
 
     @classmethod
@@ -35,9 +36,9 @@ class SphericalWrist(ClosedForm):
         yield from regional_conditions(chain)
         yield from (right_angle(chain, i) for i in (2, 3, 4))
         yield from (intersecting(chain, i) for i in (3, 4))
-        yield is_zero(chain.d[4]), "axes 4, 5 and 6 must meet in one point: no offset d along axis 5."
+        yield is_zero(chain.d[4]), tr("axes 4, 5 and 6 must meet in one point: no offset d along axis 5.")
         forearm = math.hypot(chain.a[2], chain.d[3])
-        yield not is_zero(forearm), "the forearm, a of axis 3 and d of axis 4, must have a length."
+        yield not is_zero(forearm), tr("the forearm, a of axis 3 and d of axis 4, must have a length.")
 
     def __init__(self, chain: Chain) -> None:
         super().__init__(chain)

@@ -17,13 +17,14 @@ from rvsim.kinematics.inverse.extension import extension_labels, solve_extension
 from rvsim.kinematics.inverse.regional import Regional, regional_conditions
 from rvsim.kinematics.inverse.waist import solve_waist
 from rvsim.kinematics.inverse.words import ELBOW, combine, side_names
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
 
 class Planar(ClosedForm):
     """Two links in a plane."""
 
-    title = "planar RR arm"
+    title = tr_later("planar RR arm")
     joints = "RR"
     task = "x,y"
     place_only = True
@@ -34,7 +35,7 @@ class Planar(ClosedForm):
         """Parallel axes, two links."""
         yield parallel(chain, 0)
         yield long_enough(chain, 0)
-        yield not is_zero(math.hypot(*chain.T_n_tool[:2, 3])), "the second link must have a length."
+        yield not is_zero(math.hypot(*chain.T_n_tool[:2, 3])), tr("the second link must have a length.")
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:  # noqa: ARG002 (nothing is free)
         """The law of cosines."""
@@ -52,7 +53,7 @@ class Planar(ClosedForm):
 class Articulated(ClosedForm):
     """Waist, shoulder, elbow."""
 
-    title = "articulated RRR arm"
+    title = tr_later("articulated RRR arm")
     joints = "RRR"
     task = "position"
     place_only = True
@@ -61,7 +62,7 @@ class Articulated(ClosedForm):
     def conditions(cls, chain: Chain) -> Iterable[Condition]:
         """Axis 1 square to two parallel axes, two links."""
         yield from regional_conditions(chain)
-        yield not is_zero(math.hypot(*chain.T_n_tool[:2, 3])), "the forearm must have a length."
+        yield not is_zero(math.hypot(*chain.T_n_tool[:2, 3])), tr("the forearm must have a length.")
 
     def __init__(self, chain: Chain) -> None:
         super().__init__(chain)
@@ -79,7 +80,7 @@ class Articulated(ClosedForm):
 class Spherical(ClosedForm):
     """Waist, shoulder, extension: the Stanford arm's first three joints."""
 
-    title = "spherical RRP arm"
+    title = tr_later("spherical RRP arm")
     joints = "RRP"
     task = "position"
     place_only = True
@@ -109,18 +110,18 @@ class Spherical(ClosedForm):
 class Scara(ClosedForm):
     """Two links in a horizontal plane, a vertical stroke, a yaw."""
 
-    title = "SCARA, RRPR"
+    title = tr_later("SCARA, RRPR")
     joints = "RRPR"
     task = "position+yaw"
     place_only = True
-    labels = ("elbow left", "elbow right")
+    labels = (tr_later("elbow left"), tr_later("elbow right"))
 
     @classmethod
     def conditions(cls, chain: Chain) -> Iterable[Condition]:
         """Four parallel axes, two links."""
         yield from (parallel(chain, i) for i in range(3))
         yield long_enough(chain, 0)
-        yield not is_zero(abs(_second_link(chain))), "the second link must have a length."
+        yield not is_zero(abs(_second_link(chain))), tr("the second link must have a length.")
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:  # noqa: ARG002 (nothing is free)
         """The yaw nearest to the wanted rotation, then the axis of the stroke, then the two links."""
@@ -156,7 +157,7 @@ def _second_link(chain: Chain) -> complex:
 class Cylindrical(ClosedForm):
     """Turn, lift, extend."""
 
-    title = "cylindrical RPP arm"
+    title = tr_later("cylindrical RPP arm")
     joints = "RPP"
     task = "position"
     place_only = True
@@ -171,7 +172,10 @@ class Cylindrical(ClosedForm):
         super().__init__(chain)
         self.origin = chain.place((0.0, 0.0, 0.0))
         self.outward = chain.place((0.0, 0.0, 1.0)) - self.origin
-        self.labels = tuple(f"{side}, extended {way}" for side, way in (("facing", "ahead"), ("turned away", "behind")))
+        self.labels = tuple(
+            tr("{side}, extended {way}", side=side, way=way)
+            for side, way in (("facing", "ahead"), (tr("turned away"), "behind"))
+        )
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
         """What stands across the extension is the plane's offset; the rest is a waist."""
@@ -193,16 +197,16 @@ class Cylindrical(ClosedForm):
 class Cartesian(ClosedForm):
     """Three strokes."""
 
-    title = "Cartesian PPP arm"
+    title = tr_later("Cartesian PPP arm")
     joints = "PPP"
     task = "position"
     place_only = True
-    labels = ("the only solution",)
+    labels = (tr_later("the only solution"),)
 
     @classmethod
     def conditions(cls, chain: Chain) -> Iterable[Condition]:
         """Strokes that span space."""
-        yield abs(np.linalg.det(_strokes(chain))) > 1e-6, "the three strokes must not lie in one plane."
+        yield abs(np.linalg.det(_strokes(chain))) > 1e-6, tr("the three strokes must not lie in one plane.")
 
     def __init__(self, chain: Chain) -> None:
         super().__init__(chain)

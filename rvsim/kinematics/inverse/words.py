@@ -5,9 +5,10 @@ from __future__ import annotations
 from itertools import product
 
 from rvsim.kinematics.inverse.chain import Chain
+from rvsim.language import tr_later
 
-ELBOW = ("elbow up", "elbow down")
-WRIST = ("wrist no-flip", "wrist flip")
+ELBOW = (tr_later("elbow up"), tr_later("elbow down"))
+WRIST = (tr_later("wrist no-flip"), tr_later("wrist flip"))
 
 
 def combine(*choices: tuple[str, ...]) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from rvsim.errors import SettingError, UnknownNameError
+from rvsim.language import tr
 
 Task = Literal["pose", "position"]
 Solver = Literal["newton", "dls", "lm", "bfgs"]
@@ -65,7 +66,7 @@ class SolverOptions:
             if not getattr(self, name) > 0.0:
                 raise SettingError(name, getattr(self, name), "above 0")
         if len(self.weights) != 6 or not all(0.0 <= weight < math.inf for weight in self.weights):
-            raise SettingError("weights", self.weights, "six numbers of at least 0")
+            raise SettingError("weights", self.weights, tr("six numbers of at least 0"))
 
 
 _POSITIVE = ("max_iterations", "max_time", "length", "position_tolerance", "rotation_tolerance", "step_limit")
@@ -80,7 +81,7 @@ def checked_task(task: str) -> Task:
     for known in TASKS:
         if task == known:
             return known
-    raise UnknownNameError("numeric task", task, TASKS)
+    raise UnknownNameError(tr("numeric task"), task, TASKS)
 
 
 def checked_solver(solver: str) -> Solver:
@@ -92,4 +93,4 @@ def checked_solver(solver: str) -> Solver:
     for known in SOLVERS:
         if solver == known:
             return known
-    raise UnknownNameError("numeric solver", solver, SOLVERS)
+    raise UnknownNameError(tr("numeric solver"), solver, SOLVERS)

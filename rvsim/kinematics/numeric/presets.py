@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from rvsim.kinematics.numeric.options import Solver, SolverOptions, Task
+from rvsim.language import tr_later
 
 
 class Preset(NamedTuple):
@@ -29,9 +30,12 @@ class Preset(NamedTuple):
 
 
 AS_IN_SOURCE_000 = Preset(
-    "As in source 000",
-    "Source 000, Program 8: weights 0.1 0.1 0.1 1.2 1.2 1, the orientation first, and a solution tolerance of 0.01. "
-    "Its lengths are decimetres, so 0.01 allows up to 0.1 rad and 1 mm.",
+    tr_later("As in source 000"),
+    tr_later(
+        "Source 000, Program 8: weights 0.1 0.1 0.1 1.2 1.2 1, the orientation first, and a solution tolerance of "
+        "0.01. "
+        "Its lengths are decimetres, so 0.01 allows up to 0.1 rad and 1 mm."
+    ),
     "lm",
     "pose",
     SolverOptions(
@@ -49,9 +53,12 @@ AS_IN_SOURCE_000 = Preset(
 # The source turns degrees into radians by 0.0175.
 _GUESS_002 = tuple(0.0175 * degrees for degrees in (15, 20, 25, 10, 15, 12))
 AS_IN_SOURCE_002 = Preset(
-    "As in source 002",
-    "Source 002, code 2: the pseudoinverse, position only, 300 iterations, 1 mm, no limits and no restarts. The guess "
-    "is 15 20 25 10 15 12 degrees, times 0.0175.",
+    tr_later("As in source 002"),
+    tr_later(
+        "Source 002, code 2: the pseudoinverse, position only, 300 iterations, 1 mm, no limits and no restarts. The "
+        "guess "
+        "is 15 20 25 10 15 12 degrees, times 0.0175."
+    ),
     "newton",
     "position",
     SolverOptions(

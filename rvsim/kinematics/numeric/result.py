@@ -5,18 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
 Kind = Literal["solved", "iterations", "time", "gradient", "step", "change", "progress"]
 
 _WORDS: dict[Kind, str] = {
-    "solved": "The target is reached within every tolerance.",
-    "iterations": "All iterations are used up.",
-    "time": "The time is used up.",
-    "gradient": "No small motion lowers the error any more: this is a local minimum, or as near as the arm can come.",
-    "step": "The steps have become too small to move anything: the arm leans on its limits, or can come no nearer.",
-    "change": "The error no longer changes from one iteration to the next.",
-    "progress": "The error has stopped falling: the iterates creep or go in circles.",
+    "solved": tr_later("The target is reached within every tolerance."),
+    "iterations": tr_later("All iterations are used up."),
+    "time": tr_later("The time is used up."),
+    "gradient": tr_later(
+        "No small motion lowers the error any more: this is a local minimum, or as near as the arm can come."
+    ),
+    "step": tr_later(
+        "The steps have become too small to move anything: the arm leans on its limits, or can come no nearer."
+    ),
+    "change": tr_later("The error no longer changes from one iteration to the next."),
+    "progress": tr_later("The error has stopped falling: the iterates creep or go in circles."),
 }
 # These end the whole search, the others one try.
 ENDING: tuple[Kind, ...] = ("solved", "iterations", "time")
@@ -66,5 +71,11 @@ def reason_in_words(kind: Kind, best: Kind, restarts: int) -> str:
     """The sentence for a search that ended by one rule, whose best try ended by another."""
     if kind == "solved" or not restarts:
         return _WORDS[kind]
-    last = "" if best == kind else f" The best try ended so: {_WORDS[best]}"
-    return f"{_WORDS[kind]} {restarts} random restart{'s' * (restarts > 1)} found no solution.{last}"
+    last = "" if best == kind else tr(" The best try ended so: {words}", words=_WORDS[best])
+    return tr(
+        "{words} {restarts} random restart{value} found no solution.{last}",
+        words=_WORDS[kind],
+        restarts=restarts,
+        value="s" * (restarts > 1),
+        last=last,
+    )

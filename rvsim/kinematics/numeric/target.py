@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from rvsim.errors import PoseError
 from rvsim.kinematics.numeric.options import Task
+from rvsim.language import tr
 from rvsim.spatial import nearest_rotation
 from rvsim.spatial.arrays import FloatArray, floats
 
@@ -23,13 +24,15 @@ def target_poses(T: ArrayLike, task: Task) -> FloatArray:
     """
     poses = floats("T", T, 4, 4)
     if not np.isfinite(poses).all():
-        raise PoseError("its entries must be finite.")
+        raise PoseError(tr("its entries must be finite."))
     if task == "position":
         return poses
     R = poses[..., :3, :3]
     astray = float(np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(initial=0.0))
     if astray > _ASTRAY or (np.linalg.det(R) < 0.0).any():
-        raise PoseError(f"its columns are no right-handed, orthogonal unit vectors (off by {astray:.3g}).")
+        raise PoseError(
+            tr("its columns are no right-handed, orthogonal unit vectors (off by {astray:.3g}).", astray=astray)
+        )
     if astray < _EXACT:
         return poses
     mended = poses.copy()

@@ -18,6 +18,7 @@ from rvsim.kinematics.inverse.textbook import Scara
 from rvsim.kinematics.inverse.ur import ParallelAxes
 from rvsim.kinematics.workspace.grid import BoolArray
 from rvsim.kinematics.workspace.place import places_and_manipulability
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray
 
@@ -50,7 +51,7 @@ def held_branches(robot: Robot, places: FloatArray, R: FloatArray) -> FloatArray
     """
     form = closed_form(robot)
     if not holds_orientation(robot):
-        raise NoClosedFormError(robot.name, "it cannot hold an orientation all over an area.")
+        raise NoClosedFormError(robot.name, tr("it cannot hold an orientation all over an area."))
     T = np.zeros((len(places), 4, 4))
     T[:, :3, :3], T[:, :3, 3], T[:, 3, 3] = R, places, 1.0
     return inverse_kinematics_batch(robot, turned_about_vertical(form.chain, T) if isinstance(form, FiveAxis) else T)

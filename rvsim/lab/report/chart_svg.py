@@ -8,6 +8,7 @@ from html import escape
 import numpy as np
 
 from rvsim.lab.report.chart import Axis, Chart, Curve, axis, thinned, time_axis, value_axis
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 
 WIDTH = 453.0
@@ -15,7 +16,7 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 50.0, 8.0, 18.0, 30.0
 _LEGEND_LEFT, _LEGEND_ROW, _LEGEND_STROKE = 24.0, 12.0, 18.0
 _DASHES = ("", *(f' stroke-dasharray="{d}"' for d in ("6 3", "2 2", "8 2.5 2 2.5", "8 2 2 2 2 2")))
 _INK, _MUTED, _GRID = "#1D2733", "#4A5665", "#DFE5ED"
-FONTS = "Helvetica, Arial, Liberation Sans, Nimbus Sans, DejaVu Sans, sans-serif"
+FONTS = tr_later("Helvetica, Arial, Liberation Sans, Nimbus Sans, DejaVu Sans, sans-serif")
 _HATCH, _HATCH_STEP = 3.0, 9.0
 
 
@@ -106,7 +107,7 @@ def _marks(chart: Chart, frame: _Frame) -> Iterator[str]:
     for mark in chart.marks:
         if frame.x.low < mark < frame.x.high:
             place = float(frame.across(np.array(mark)))
-            yield _line(place, frame.top, place, frame.bottom, _MUTED, 0.6, ' stroke-dasharray="3 2"')
+            yield _line(place, frame.top, place, frame.bottom, _MUTED, 0.6, tr(' stroke-dasharray="3 2"'))
 
 
 def _curves(chart: Chart, frame: _Frame) -> Iterator[str]:

@@ -21,6 +21,7 @@ from rvsim.lab.report.section_torques import torques_section
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Cover, Document, Paragraph, Section, numbered
 from rvsim.lab.sources import errata
+from rvsim.language import tr, tr_later
 
 
 class Part(NamedTuple):
@@ -36,20 +37,20 @@ def _always(_study: Study) -> bool:
 
 
 PARTS: tuple[Part, ...] = (
-    Part("robot", "The robot: DH table and limits", _always),
-    Part("pose", "Forward kinematics with all matrices", _always),
-    Part("inverse", "Inverse kinematics: all branches", _always),
-    Part("steps", "Inverse kinematics, step by step", lambda study: study.inverse is not None),
-    Part("jacobian", "Jacobian and singularities", _always),
-    Part("torques", "Forces and torques", _always),
-    Part("path", "The path and its check", lambda study: study.tracking is not None),
-    Part("motion", "Curves over time", lambda study: study.trajectory is not None),
+    Part("robot", tr_later("The robot: DH table and limits"), _always),
+    Part("pose", tr_later("Forward kinematics with all matrices"), _always),
+    Part("inverse", tr_later("Inverse kinematics: all branches"), _always),
+    Part("steps", tr_later("Inverse kinematics, step by step"), lambda study: study.inverse is not None),
+    Part("jacobian", tr_later("Jacobian and singularities"), _always),
+    Part("torques", tr_later("Forces and torques"), _always),
+    Part("path", tr_later("The path and its check"), lambda study: study.tracking is not None),
+    Part("motion", tr_later("Curves over time"), lambda study: study.trajectory is not None),
     Part(
         "measured",
-        "On the arm: sent, measured or reported",
+        tr_later("On the arm: sent, measured or reported"),
         lambda study: study.recording is not None and not study.recording.empty,
     ),
-    Part("sources", "Errata of the sources", lambda study: bool(errata(study.robot))),
+    Part("sources", tr_later("Errata of the sources"), lambda study: bool(errata(study.robot))),
 )
 
 
@@ -90,22 +91,28 @@ def _summary(study: Study, measures: Measures) -> Section:
     place = ", ".join(measures.length.text(float(value)) for value in study.T[:3, 3])
     joints = ", ".join(measures.joint(i).amount(float(value)) for i, value in enumerate(study.q))
     sentences = [
-        f"The {study.robot.title} stands at q = ({joints}).",
-        f"Its tool is then at x, y, z = ({place}) {measures.length.unit}.",
+        tr("The {title} stands at q = ({joints}).", title=study.robot.title, joints=joints),
+        tr("Its tool is then at x, y, z = ({place}) {unit}.", place=place, unit=measures.length.unit),
         *_inverse_words(study),
         *_path_words(study, measures),
         *_measured_words(study, measures),
     ]
-    return Section("Summary", (Paragraph(" ".join(sentences), "lead"),))
+    return Section(tr("Summary"), (Paragraph(" ".join(sentences), "lead"),))
 
 
 def _inverse_words(study: Study) -> list[str]:
     if study.inverse is None:
         return []
     count, within = len(study.inverse.branches), sum(branch.within_limits for branch in study.inverse.branches)
-    poses = counted(count, "joint pose leads", "joint poses lead")
-    verdict = f"{counted(within, 'of them', 'of them')} within" if count > 1 else "within" if within else "outside"
-    return [f"For the arm’s task {poses} there, {verdict} the limits."]
+    poses = counted(count, tr("joint pose leads"), tr("joint poses lead"))
+    verdict = (
+        tr("{counted} within", counted=counted(within, tr("of them"), tr("of them")))
+        if count > 1
+        else "within"
+        if within
+        else "outside"
+    )
+    return [tr("For the arm’s task {poses} there, {verdict} the limits.", poses=poses, verdict=verdict)]
 
 
 def _path_words(study: Study, measures: Measures) -> list[str]:
@@ -113,11 +120,23 @@ def _path_words(study: Study, measures: Measures) -> list[str]:
     if tracking is None:
         return []
     title = tracking.path.title or tracking.path.name
-    reached = f"{100.0 * tracking.reached_count / tracking.samples:.0f} % of the {tracking.samples} points"
+    reached = tr(
+        "{reached_count:.0f} % of the {samples} points",
+        reached_count=100.0 * tracking.reached_count / tracking.samples,
+        samples=tracking.samples,
+    )
     if tracking.rms is None:
-        return [f"Of the path “{title}” no point can be reached."]
+        return [tr("Of the path “{title}” no point can be reached.", title=title)]
     rms = scientific(tracking.rms * measures.length.factor)
-    return [f"On the path “{title}” it reaches {reached}, with an RMS deviation of {rms} {measures.length.unit}."]
+    return [
+        tr(
+            "On the path “{title}” it reaches {reached}, with an RMS deviation of {rms} {unit}.",
+            title=title,
+            reached=reached,
+            rms=rms,
+            unit=measures.length.unit,
+        )
+    ]
 
 
 def _measured_words(study: Study, measures: Measures) -> list[str]:
@@ -129,10 +148,15 @@ def _measured_words(study: Study, measures: Measures) -> list[str]:
         return []
     amount = measures.length.amount(rms)
     if part.is_measured:
-        return [f"When the motion ran on an arm, the tool was {amount} (RMS) from where it was to be."]
+        return [
+            tr("When the motion ran on an arm, the tool was {amount} (RMS) from where it was to be.", amount=amount)
+        ]
     return [
-        f"When the motion ran on an arm, the controller reported pulses that stand for a tool {amount} (RMS) from "
-        "where it was to be; that is no measurement."
+        tr(
+            "When the motion ran on an arm, the controller reported pulses that stand for a tool {amount} (RMS) from "
+            "where it was to be; that is no measurement.",
+            amount=amount,
+        )
     ]
 
 
@@ -140,6 +164,6 @@ def title_of(study: Study) -> str:
     """A title to begin with: the arm and what was done with it."""
     done = [
         *(["path"] if study.tracking is not None else ["pose"]),
-        *(["run on the arm"] if study.recording is not None and not study.recording.empty else []),
+        *([tr("run on the arm")] if study.recording is not None and not study.recording.empty else []),
     ]
     return f"{study.robot.title}: {sentence_list(done)}"

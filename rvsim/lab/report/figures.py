@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rvsim.lab.sentences import Units
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import degrees_from_radians, millimetres_from_metres
@@ -150,4 +151,4 @@ def counted(number: int, one: str, many: str) -> str:
 
 def sentence_list(parts: Sequence[str]) -> str:
     """ "a, b and c"."""
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
+    return parts[0] if len(parts) == 1 else tr("{parts} and {parts2}", parts=", ".join(parts[:-1]), parts2=parts[-1])

@@ -26,6 +26,7 @@ from rvsim.lab.report.values import (
     Words,
     runs,
 )
+from rvsim.language import tr
 
 _TOTAL = ' class="total"'
 
@@ -97,7 +98,7 @@ def _run(run: Run, artist: Artist) -> str:
 
 
 def _paragraph(block: Paragraph, artist: Artist) -> str:
-    name = "" if block.role == "body" else f' class="{block.role}"'
+    name = "" if block.role == "body" else tr(' class="{role}"', role=block.role)
     return f"<p{name}>{_words(block.words, artist)}</p>\n"
 
 
@@ -143,7 +144,7 @@ def _cells(row: tuple[Words, ...], columns: tuple[Column, ...], artist: Artist) 
 
 
 def _class(column: Column) -> str:
-    return f"{column.align} wide" if column.wide else column.align
+    return tr("{align} wide", align=column.align) if column.wide else column.align
 
 
 def _caption(caption: str) -> str:

@@ -1,6 +1,8 @@
 """The look of the page: a sheet of paper on a grey table, tables with three rules, and the same when it is printed."""
 
-STYLE = """
+from rvsim.language import tr_later
+
+STYLE = tr_later("""
 :root { color-scheme: light; }
 body { margin: 0; background: #eef1f5; color: #1d2733; font: 17px/1.5 "STIX Two Text", "Times New Roman",
   "Nimbus Roman", "Liberation Serif", "Tinos", serif; }
@@ -42,4 +44,4 @@ tr.total td { border-top: .8px solid #1d2733; }
   .lead { font-size: 11pt; } table { font-size: 9.5pt; } th, .note { font-size: 8pt; } figcaption { font-size: 8.6pt; }
   h2, h3 { break-after: avoid; } figure, tr, .formula { break-inside: avoid; } }
 @page { size: A4; margin: 22mm; }
-"""
+""")

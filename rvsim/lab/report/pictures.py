@@ -10,6 +10,7 @@ from rvsim.kinematics import link_transforms
 from rvsim.kinematics.inverse import Branch
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import ScenePicture
+from rvsim.language import tr
 from rvsim.motion import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -29,7 +30,7 @@ _AIR = 0.04  # about what is shown, as a part of its size
 def robot_picture(study: Study) -> ScenePicture:
     """The arm in its pose, with its frames."""
     options = SceneOptions("both", frames=True, length_unit=study.units.length)
-    return _picture(study, study.q, (), [study.q], options, "The arm with its frames.")
+    return _picture(study, study.q, (), [study.q], options, tr("The arm with its frames."))
 
 
 def branches_picture(study: Study, branches: Sequence[Branch]) -> ScenePicture:
@@ -40,7 +41,7 @@ def branches_picture(study: Study, branches: Sequence[Branch]) -> ScenePicture:
     ]
     options = SceneOptions("stick", labels=False, length_unit=study.units.length)
     items = ghost_items(study.robot, ghosts, LIGHT)
-    return _picture(study, study.q, items, [branch.q for branch in branches], options, "All branches.")
+    return _picture(study, study.q, items, [branch.q for branch in branches], options, tr("All branches."))
 
 
 def path_picture(study: Study, tracking: Tracking) -> ScenePicture:
@@ -51,7 +52,7 @@ def path_picture(study: Study, tracking: Tracking) -> ScenePicture:
         tracking.path.points, tracking.reached, tracking.actual[reached], LIGHT, pen_up=tracking.path.pen_up
     )
     options = SceneOptions("solid", labels=False, length_unit=study.units.length)
-    return _picture(study, q, items, [q], options, "The arm on its path.", tracking.path.points)
+    return _picture(study, q, items, [q], options, tr("The arm on its path."), tracking.path.points)
 
 
 def _picture(

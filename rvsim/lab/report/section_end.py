@@ -10,6 +10,7 @@ import rvsim
 from rvsim.lab.report.figures import sentence_list
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Items, Paragraph, Run, Section
+from rvsim.language import tr
 
 _LENGTHS = {"mm": "millimetres", "m": "metres"}
 _PARTS = ("numpy", "scipy", "PySide6-Essentials", "ruckig", "ziamath")
@@ -17,7 +18,7 @@ _PARTS = ("numpy", "scipy", "PySide6-Essentials", "ruckig", "ziamath")
 
 def versions() -> tuple[tuple[str, str], ...]:
     """Name and version of what computed and drew."""
-    known = [("rvsim", rvsim.__version__), ("Python", platform.python_version())]
+    known = [("rvsim", rvsim.__version__), (tr("Python"), platform.python_version())]
     return (*known, *((part, _version(part)) for part in _PARTS))
 
 
@@ -25,26 +26,33 @@ def _version(part: str) -> str:
     try:
         return version(part)
     except PackageNotFoundError:  # in a bundle without metadata
-        return "in the bundle"
+        return tr("in the bundle")
 
 
 def end_section(study: Study, files: Mapping[str, str]) -> Section:
     """Conventions; the files beside the report with what is in them; versions."""
     angles = "degrees" if study.units.angle == "deg" else "radians"
-    lengths = "the arm’s own unit" if study.robot.length_unit == "unit" else _LENGTHS[study.units.length]
+    lengths = tr("the arm’s own unit") if study.robot.length_unit == "unit" else _LENGTHS[study.units.length]
     conventions = (
-        f"Angles are shown in {angles}, lengths in {lengths}; inside, everything is computed in radians and metres.",
-        "A transform with a above and b below maps coordinates of frame b to frame a; neighbours cancel in a product.",
-        "Twists and wrenches have their linear part first; the Jacobian is geometric, at the tool, in base axes.",
-        "Roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll). Quaternions have w first, and w ≥ 0.",
+        tr(
+            "Angles are shown in {angles}, lengths in {lengths}; inside, everything is computed in radians and metres.",
+            angles=angles,
+            lengths=lengths,
+        ),
+        tr(
+            "A transform with a above and b below maps coordinates of frame b to frame a; neighbours cancel in a "
+            "product."
+        ),
+        tr("Twists and wrenches have their linear part first; the Jacobian is geometric, at the tool, in base axes."),
+        tr("Roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll). Quaternions have w first, and w ≥ 0."),
     )
     names = tuple((Run(name, "code"), Run(f" – {what}")) for name, what in files.items())
     made = sentence_list([f"{name} {number}" for name, number in versions()])
     return Section(
-        "How this was computed",
+        tr("How this was computed"),
         (
             Items(conventions),
-            *((Paragraph("Beside this report lie:"), Items(names)) if names else ()),
-            Paragraph(f"Computed and drawn with {made}."),
+            *((Paragraph(tr("Beside this report lie:")), Items(names)) if names else ()),
+            Paragraph(tr("Computed and drawn with {made}.", made=made)),
         ),
     )

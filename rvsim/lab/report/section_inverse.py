@@ -26,13 +26,14 @@ from rvsim.lab.report.values import (
 )
 from rvsim.lab.sentences import failure_sentence
 from rvsim.lab.worked import Equation, Step, WorkedBranch, WorkedSolution, worked_solution
+from rvsim.language import tr, tr_later
 
 _SAME = 1e-6
 TASKS = {
-    "pose": "place and orientation of the tool",
-    "position": "the place of the tool; its orientation follows",
-    "position+yaw": "the place of the tool and its yaw",
-    "x,y": "the place of the tool in the plane",
+    "pose": tr_later("place and orientation of the tool"),
+    "position": tr_later("the place of the tool; its orientation follows"),
+    "position+yaw": tr_later("the place of the tool and its yaw"),
+    "x,y": tr_later("the place of the tool in the plane"),
 }
 
 
@@ -41,9 +42,9 @@ def inverse_section(study: Study, measures: Measures, *, steps: bool = True) -> 
     try:
         solution = worked_solution(study.robot, study.T, study.q, study.units)
     except NoClosedFormError as problem:
-        return Section("Inverse kinematics", (Paragraph(str(problem)),))
+        return Section(tr("Inverse kinematics"), (Paragraph(str(problem)),))
     return Section(
-        "Inverse kinematics",
+        tr("Inverse kinematics"),
         (
             *_branches(study, measures, solution),
             *(_worked(study, solution) if steps else ()),
@@ -56,20 +57,33 @@ def _branches(study: Study, measures: Measures, solution: WorkedSolution) -> Ite
     found = study.inverse.branches
     within = sum(branch.within_limits for branch in found)
     count = counted(len(found), "branch", "branches")
-    verdict = counted(within, "of them lies", "of them lie") if len(found) > 1 else "it lies" if within else "it is not"
+    verdict = (
+        counted(within, tr("of them lies"), tr("of them lie"))
+        if len(found) > 1
+        else tr("it lies")
+        if within
+        else tr("it is not")
+    )
     yield Paragraph(
-        f"Asked for is {TASKS[closed_form(study.robot).task]}. The closed form finds {count} for the pose above; "
-        f"{verdict} within the limits."
+        tr(
+            "Asked for is {tasks}. The closed form finds {count} for the pose above; {verdict} within the limits.",
+            tasks=TASKS[closed_form(study.robot).task],
+            count=count,
+            verdict=verdict,
+        )
     )
     yield _branch_table(study, measures, found)
     if len(found) > 1:
         yield Figure(
-            "All branches, numbered as in the table: in colour those within the limits, dashed those that break one.",
+            tr(
+                "All branches, numbered as in the table: in colour those within the limits, dashed those that break "
+                "one."
+            ),
             (branches_picture(study, found),),
         )
     dead = [end for end in solution.branches if end.q is None]
     if dead:
-        yield Paragraph("No solution: " + "; ".join(f"{end.label}: {_clause(end)}" for end in dead) + ".")
+        yield Paragraph(tr("No solution: ") + "; ".join(f"{end.label}: {_clause(end)}" for end in dead) + ".")
     failure = study.inverse.failure
     if failure is not None:
         yield Paragraph(failure_sentence(failure, study.units))
@@ -82,15 +96,15 @@ def _clause(end: WorkedBranch) -> str:
 def _branch_table(study: Study, measures: Measures, found: tuple[Branch, ...]) -> Table:
     joints = tuple(Column(f"q{subscript(i + 1)} [{measures.joint(i).unit}]") for i in range(study.robot.dof))
     columns = (
-        Column("", "center"), Column("Branch", "left"), *joints, Column("within", "center"),
+        Column("", "center"), Column(tr("Branch"), "left"), *joints, Column("within", "center"),
         Column("margin"), Column("residual"), Column("w"),
     )  # fmt: skip
     rows = tuple(_branch_row(number, study, measures, branch) for number, branch in enumerate(found, 1))
-    note = (
+    note = tr(
         "▸ the pose of the arm. Margin: of the joint that is nearest to a limit or farthest beyond it. "
         "Residual: the largest entry of |FK − T| (lengths in metres). w: manipulability."
     )
-    return Table("All branches, the nearest to the arm's pose first.", columns, rows, note)
+    return Table(tr("All branches, the nearest to the arm's pose first."), columns, rows, note)
 
 
 def _branch_row(row: int, study: Study, measures: Measures, branch: Branch) -> tuple[Words, ...]:
@@ -117,8 +131,8 @@ def _worked(study: Study, solution: WorkedSolution) -> Iterator[Block]:
     end = _end(study, solution)
     if end is None:
         return
-    where = f" branch “{end.label}”" if end.label else " solution"
-    yield Subheading(f"The closed form, step by step:{where}")
+    where = tr(" branch “{label}”", label=end.label) if end.label else " solution"
+    yield Subheading(tr("The closed form, step by step:{where}", where=where))
     for count, step in enumerate(solution.along(end.path), 1):
         yield from step_blocks(count, step)
 
@@ -139,7 +153,7 @@ def _turned(study: Study, end: WorkedBranch) -> np.ndarray[tuple[int, ...], np.d
 def step_blocks(count: int, step: Step) -> Iterator[Block]:
     """A step: its title and reason, its equations, and where a source has it otherwise."""
     text = f" {step.text}" if step.text else ""
-    yield Paragraph((Run(f"Step {count}. {step.title}.", "bold"), Run(text)))
+    yield Paragraph((Run(tr("Step {count}. {title}.", count=count, title=step.title), "bold"), Run(text)))
     for equation in step.equations:
         yield Formula(equation.left, _sides(equation))
     if step.failure:

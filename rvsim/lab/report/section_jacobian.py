@@ -11,6 +11,7 @@ from rvsim.kinematics.singularity import Singularity, singularity
 from rvsim.lab.report.figures import Measures, number, sentence_list, small, subscript, table_latex
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Formula, Paragraph, Run, Section, Table, Words
+from rvsim.language import tr
 
 _NEAR = 0.1  # of a family's term, to be called near
 
@@ -21,11 +22,17 @@ def jacobian_section(study: Study, measures: Measures) -> Section:
     metre = measures.metre
     joint = "rad" if study.robot.is_revolute.all() else f"rad or {metre}"
     return Section(
-        "The Jacobian",
+        tr("The Jacobian"),
         (
             Paragraph(
-                "The geometric Jacobian at the tool, in base axes: (v, ω) = J q̇. Its first three rows are the tool’s "
-                f"velocity in {metre}/s, the last three its turning in rad/s, each for 1 {joint} per second of a joint."
+                tr(
+                    "The geometric Jacobian at the tool, in base axes: (v, ω) = J q̇. Its first three rows are the "
+                    "tool’s "
+                    "velocity in {metre}/s, the last three its turning in rad/s, each for 1 {joint} per second of a "
+                    "joint.",
+                    metre=metre,
+                    joint=joint,
+                )
             ),
             Formula("J", (table_latex(found.J, 4),)),
             _sigma_table(found, measures),
@@ -35,17 +42,20 @@ def jacobian_section(study: Study, measures: Measures) -> Section:
 
 
 def _sigma_table(found: Singularity, measures: Measures) -> Table:
-    parts = [("whole twist (v, ω)", found.whole), ("velocity v alone", found.position)]
+    parts = [(tr("whole twist (v, ω)"), found.whole), (tr("velocity v alone"), found.position)]
     if found.task is not found.whole and found.task.full_rank not in (3,):
-        parts.append(("the arm’s own task", found.task))
+        parts.append((tr("the arm’s own task"), found.task))
     most = max(len(values.singular_values) for _, values in parts)
     columns = (
-        Column("Rows of J", "left"), *(Column(f"σ{subscript(i + 1)}") for i in range(most)), Column("condition"),
+        Column(tr("Rows of J"), "left"), *(Column(f"σ{subscript(i + 1)}") for i in range(most)), Column("condition"),
         Column("w"), Column("rank"),
     )  # fmt: skip
     rows = tuple(_sigma_row(name, values, most) for name, values in parts)
-    note = f"w: manipulability, the product of all σ (Yoshikawa). σ mixes {measures.metre} and rad in the first row."
-    return Table("Singular values of the Jacobian.", columns, rows, note)
+    note = tr(
+        "w: manipulability, the product of all σ (Yoshikawa). σ mixes {metre} and rad in the first row.",
+        metre=measures.metre,
+    )
+    return Table(tr("Singular values of the Jacobian."), columns, rows, note)
 
 
 def _sigma_row(name: str, values: Values, most: int) -> tuple[Words, ...]:
@@ -62,16 +72,18 @@ def _families(study: Study, found: Singularity, measures: Measures) -> Iterator[
     active = [*found.families, *found.position_families]
     if active:
         names = sentence_list([family.title for family in active])
-        yield Paragraph(f"The pose is singular: {names}. " + " ".join(family.sentence for family in active))
+        yield Paragraph(
+            tr("The pose is singular: {names}. ", names=names) + " ".join(family.sentence for family in active)
+        )
     elif found.task.rank == found.task.full_rank:
-        yield Paragraph("The pose is not singular: the Jacobian of the arm’s task has its full rank.")
+        yield Paragraph(tr("The pose is not singular: the Jacobian of the arm’s task has its full rank."))
     if known:
         columns = (
-            Column("Singularity", "left", wide=True), Column("kind", "left"), Column("where it is", "left"),
+            Column(tr("Singularity"), "left", wide=True), Column("kind", "left"), Column(tr("where it is"), "left"),
             Column("here"), Column("", "left"),
         )  # fmt: skip
         rows = tuple(_family_row(study, family, measures) for family in known)
-        yield Table("The singularities of this arm, and how far the pose is from them.", columns, rows)
+        yield Table(tr("The singularities of this arm, and how far the pose is from them."), columns, rows)
 
 
 def _family_row(study: Study, family: SingularFamily, measures: Measures) -> tuple[Words, ...]:

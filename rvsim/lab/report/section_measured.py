@@ -10,15 +10,18 @@ from rvsim.lab.report.chart import Chart, Curve
 from rvsim.lab.report.figures import DASH, Measure, Measures, number
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Paragraph, Section, Table, Words
+from rvsim.language import tr, tr_later
 from rvsim.playback.recording import Recording
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 COLORS = {"desired": "#0072B2", "commanded": "#009E73", "measured": "#D55E00", "true": "#CC79A7"}
 _DASHES = {"desired": 0, "commanded": 1, "measured": 2, "true": 3}
-_TRUE_WORDS = " “Really” is where the joints of the virtual arm truly were, which nobody can see of a real one."
-_LAGS = "Sent: the set-points commanded. The measured tool lags behind in time as well as in place."
-_REPORTED = (
+_TRUE_WORDS = tr_later(
+    " “Really” is where the joints of the virtual arm truly were, which nobody can see of a real one."
+)
+_LAGS = tr_later("Sent: the set-points commanded. The measured tool lags behind in time as well as in place.")
+_REPORTED = tr_later(
     "Sent: the set-points commanded. Reported: the pulses that the controller says it sends, later than the set-points "
     "and in steps of 10 µs, about 1°; where the arm was is not known from them."
 )
@@ -30,7 +33,7 @@ def measured_section(study: Study, measures: Measures) -> Section:
     assert recording is not None, "asked for only where something ran"
     part = recording.on_trajectory()
     head = Paragraph(" ".join(filter(None, _words(study, recording, part))))
-    title = f"On the arm: desired, commanded, {recording.back_word}"
+    title = tr("On the arm: desired, commanded, {back}", back=recording.back_word)
     if part.empty:
         return Section(title, (head,))
     return Section(
@@ -40,16 +43,21 @@ def measured_section(study: Study, measures: Measures) -> Section:
 
 def _words(study: Study, recording: Recording, part: Recording) -> Iterator[str]:
     if recording.stopped_at is None:
-        yield f"The motion ran on an arm for {number(part.duration, 2)} s."
+        yield tr("The motion ran on an arm for {number} s.", number=number(part.duration, 2))
     else:
         yield (
-            f"The motion was stopped at {number(recording.stopped_at, 1)} of {number(recording.planned, 1)} s; "
-            "what follows is of the part that ran."
+            tr(
+                "The motion was stopped at {number} of {number2} s; what follows is of the part that ran.",
+                number=number(recording.stopped_at, 1),
+                number2=number(recording.planned, 1),
+            )
         )
     yield study.run
     count = len(part.measured_rows) or "none"
-    came = "a measurement" if recording.is_measured else "a report of the controller"
-    yield f"{len(part.t)} moments of it were recorded, {count} of them with {came}."
+    came = "a measurement" if recording.is_measured else tr("a report of the controller")
+    yield tr(
+        "{count} moments of it were recorded, {count2} of them with {came}.", count=len(part.t), count2=count, came=came
+    )
     yield study.measured + (_TRUE_WORDS if recording.true is not None else "")
 
 
@@ -72,9 +80,9 @@ def _table(robot: Robot, recording: Recording, measures: Measures) -> Table:
         for i in range(robot.dof)
     ]  # fmt: skip
     tool = [recording.tool_errors(robot, name) for name in shown]
-    rows.append(_row("Tool, place", measures.length, tuple(x for errors in tool for x in (errors.rms, errors.max))))
+    rows.append(_row(tr("Tool, place"), measures.length, tuple(x for errors in tool for x in (errors.rms, errors.max))))
     note = _LAGS if recording.is_measured else _REPORTED
-    caption = "Deviations from what was desired, at the same moments of the motion."
+    caption = tr("Deviations from what was desired, at the same moments of the motion.")
     return Table(caption, columns, tuple(rows), note, totals=1)
 
 
@@ -85,7 +93,7 @@ def _row(name: str, measure: Measure, values: tuple[float | FloatArray, ...]) ->
 
 def _figures(robot: Robot, recording: Recording, measures: Measures) -> Iterator[Block]:
     charts = tuple(_joint(robot, recording, measures, index) for index in range(robot.dof))
-    yield Figure(f"Each joint: desired, commanded (dashed) and {recording.back_word} (dotted).", charts)
+    yield Figure(tr("Each joint: desired, commanded (dashed) and {back} (dotted).", back=recording.back_word), charts)
     distances = {name: recording.tool_distances(robot, name) for name in recording.sources if name != "desired"}
     lines = tuple(
         Curve(
@@ -98,8 +106,10 @@ def _figures(robot: Robot, recording: Recording, measures: Measures) -> Iterator
         if np.isfinite(values).any()
     )
     if lines:
-        chart = Chart("Distance of the tool from where it was desired", "time [s]", f"[{measures.length.unit}]", lines)
-        yield Figure("How far the tool was from where it was to be at that moment.", (chart,))
+        chart = Chart(
+            tr("Distance of the tool from where it was desired"), "time [s]", f"[{measures.length.unit}]", lines
+        )
+        yield Figure(tr("How far the tool was from where it was to be at that moment."), (chart,))
 
 
 def _joint(robot: Robot, recording: Recording, measures: Measures, index: int) -> Chart:

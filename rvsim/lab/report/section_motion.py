@@ -11,6 +11,7 @@ from rvsim.lab.report.chart import DASHES, Chart, Curve, Limit
 from rvsim.lab.report.figures import Measure, Measures, number
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Figure, Paragraph, Section
+from rvsim.language import tr, tr_later
 from rvsim.playback.curves import Curves
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.palette import luminance
@@ -19,10 +20,14 @@ from rvsim.scene.primitives import Color
 AXIS_COLORS = ("#D55E00", "#009E73", "#0072B2")  # Okabe and Ito
 _TOOL_COLOR, _OFF_COLOR = "#0072B2", "#B5179E"
 _OFF_WORDS = {
-    True: "How far the tool is from the straight pieces between the points of the path: at the points nothing but "
-    "rounding, between them a little, for there the joints follow a spline.",
-    False: "How far the tool is from the straight pieces between the points of the path: it passes by those that are "
-    "out of reach.",
+    True: tr_later(
+        "How far the tool is from the straight pieces between the points of the path: at the points nothing but "
+        "rounding, between them a little, for there the joints follow a spline."
+    ),
+    False: tr_later(
+        "How far the tool is from the straight pieces between the points of the path: it passes by those that are "
+        "out of reach."
+    ),
 }
 _TIME = "time [s]"
 _LIGHTEST = 0.4  # luminance of a curve on white
@@ -36,25 +41,25 @@ def motion_section(study: Study, measures: Measures) -> Section:
     assert curves is not None, "asked for only where a motion is loaded"
     assert trajectory is not None, "its curves are those of a trajectory"
     marks = (trajectory.path_start,) if 0.0 < trajectory.path_start < trajectory.duration else ()
-    begin = f" The dashed line at {number(marks[0], 2)} s is where the path begins." if marks else ""
-    text = f"The motion takes {number(trajectory.duration, 2)} s.{begin}"
-    return Section("The motion over time", (Paragraph(text), *_figures(curves, measures, marks)))
+    begin = tr(" The dashed line at {number} s is where the path begins.", number=number(marks[0], 2)) if marks else ""
+    text = tr("The motion takes {number} s.{begin}", number=number(trajectory.duration, 2), begin=begin)
+    return Section(tr("The motion over time"), (Paragraph(text), *_figures(curves, measures, marks)))
 
 
 def _figures(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> Iterator[Block]:
     joints = tuple(_joint_chart(curves, measures, order, marks) for order in range(3))
     yield Figure(
-        "Joints, their speeds and their accelerations; limits that are near are hatched.",
+        tr("Joints, their speeds and their accelerations; limits that are near are hatched."),
         joints,
     )
-    yield Figure("Where the tool is, and where the path wants it (dashed).", (_place(curves, measures, marks),))
+    yield Figure(tr("Where the tool is, and where the path wants it (dashed)."), (_place(curves, measures, marks),))
     if curves.deviation is not None:
         yield Figure(
             _OFF_WORDS[curves.tracking is None or curves.tracking.complete],
             (_deviation(curves, measures, marks),),
         )
     yield Figure(
-        "The smallest singular value of the Jacobian: at 0 the arm would be singular.", (_sigma(curves, marks),)
+        tr("The smallest singular value of the Jacobian: at 0 the arm would be singular."), (_sigma(curves, marks),)
     )
 
 
@@ -68,7 +73,7 @@ def _joint_chart(curves: Curves, measures: Measures, order: int, marks: tuple[fl
         for i, joint in enumerate(curves.robot.joints)
     )
     unit = ", ".join(dict.fromkeys(each.unit for each in shown))
-    title = ("Joints q", "Joint speeds q̇", "Joint accelerations q̈")[order]
+    title = (tr("Joints q"), tr("Joint speeds q̇"), tr("Joint accelerations q̈"))[order]
     limits = _limits(curves, order, shown) if order < 2 else ()
     return Chart(title, _TIME, f"[{unit}]", lines, limits, marks, 132.0)
 
@@ -96,7 +101,7 @@ def _place(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> Char
     lines = [_axis_curve(i, "", curves.times, curves.place[:, i] * length.factor) for i in range(3)]
     if curves.desired is not None:
         lines += [_axis_curve(i, " wanted", curves.times, curves.desired[:, i] * length.factor, 2) for i in range(3)]
-    return Chart("Place of the tool", _TIME, f"[{length.unit}]", tuple(lines), (), marks, 150.0)
+    return Chart(tr("Place of the tool"), _TIME, f"[{length.unit}]", tuple(lines), (), marks, 150.0)
 
 
 def _axis_curve(i: int, suffix: str, times: FloatArray, values: FloatArray, dash: int = 0) -> Curve:
@@ -108,7 +113,7 @@ def _deviation(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> 
     assert deviation is not None
     factor, unit = fine_unit(deviation, measures)
     line = Curve("deviation", _OFF_COLOR, curves.times, np.asarray(deviation) * factor)
-    return Chart("Deviation from the path", _TIME, f"[{unit}]", (line,), (), marks, 110.0)
+    return Chart(tr("Deviation from the path"), _TIME, f"[{unit}]", (line,), (), marks, 110.0)
 
 
 def fine_unit(values: FloatArray, measures: Measures) -> tuple[float, str]:
@@ -124,4 +129,4 @@ def fine_unit(values: FloatArray, measures: Measures) -> tuple[float, str]:
 
 def _sigma(curves: Curves, marks: tuple[float, ...]) -> Chart:
     line = Curve("σ min", _TOOL_COLOR, curves.times, curves.sigma_min)
-    return Chart("Smallest singular value σ of J (SI units)", _TIME, "", (line,), (), marks, 110.0)
+    return Chart(tr("Smallest singular value σ of J (SI units)"), _TIME, "", (line,), (), marks, 110.0)

@@ -16,6 +16,7 @@ from rvsim.lab.report.section_motion import fine_unit
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Items, Paragraph, Run, Section, Table, Words
 from rvsim.lab.sentences import advice_sentence, tracking_sentence
+from rvsim.language import tr
 from rvsim.motion import Tracking
 from rvsim.motion.honesty import Peak, Report
 from rvsim.robot.arrays import FloatArray
@@ -32,15 +33,25 @@ def path_section(study: Study, measures: Measures) -> Section:
     assert report is not None, "a tracked path is checked"
     title = tracking.path.title or tracking.path.name
     return Section(
-        "The path",
+        tr("The path"),
         (
-            Paragraph(f"The path is “{title}”, {tracking.samples} points. {tracking_sentence(tracking, study.units)}"),
+            Paragraph(
+                tr(
+                    "The path is “{title}”, {samples} points. {tracking_sentence}",
+                    title=title,
+                    samples=tracking.samples,
+                    tracking_sentence=tracking_sentence(tracking, study.units),
+                )
+            ),
             *((Paragraph(advice_sentence(tracking)),) if not tracking.complete else ()),
             _facts(study, tracking, measures),
             Figure(
-                "The path: blue what was asked for, purple what the tool draws, orange and dashed what is out of reach."
+                tr(
+                    "The path: blue what was asked for, purple what the tool draws, orange and dashed what is out of "
+                    "reach."
+                )
                 if not tracking.complete
-                else "The path that the tool draws.",
+                else tr("The path that the tool draws."),
                 (path_picture(study, tracking),),
             ),
             _flat(tracking, measures),
@@ -54,20 +65,20 @@ def _facts(study: Study, tracking: Tracking, measures: Measures) -> Table:
     deviation = tracking.deviation[tracking.reached]
     share = 100.0 * tracking.reached_count / tracking.samples
     rows: list[tuple[Words, ...]] = [
-        ("Points reached", f"{tracking.reached_count} of {tracking.samples}", f"{share:.0f} %"),
-        ("Length of the path", measures.length.text(tracking.path.length), measures.length.unit),
+        (tr("Points reached"), f"{tracking.reached_count} of {tracking.samples}", f"{share:.0f} %"),
+        (tr("Length of the path"), measures.length.text(tracking.path.length), measures.length.unit),
         *_deviation(deviation, measures),
-        ("Changes of branch on the way", str(len(tracking.jumps)), ""),
-        ("Solving, all points", number(1e3 * tracking.solve_seconds, 1), "ms"),
-        ("Solving, a point", number(1e6 * tracking.seconds_per_point, 1), "µs"),
+        (tr("Changes of branch on the way"), str(len(tracking.jumps)), ""),
+        (tr("Solving, all points"), number(1e3 * tracking.solve_seconds, 1), "ms"),
+        (tr("Solving, a point"), number(1e6 * tracking.seconds_per_point, 1), "µs"),
     ]
     if study.trajectory is not None:
         law = study.experiment.law
-        rows.append(("Duration of the motion", number(study.trajectory.duration, 2), "s"))
-        rows.append(("Time law", _LAWS.get(law, law), ""))
+        rows.append((tr("Duration of the motion"), number(study.trajectory.duration, 2), "s"))
+        rows.append((tr("Time law"), _LAWS.get(law, law), ""))
         rows += _between(study, measures)
     columns = (Column("", "left"), Column("value"), Column("", "left"))
-    return Table("The path in numbers; deviations over the points that were reached.", columns, tuple(rows))
+    return Table(tr("The path in numbers; deviations over the points that were reached."), columns, tuple(rows))
 
 
 def _flat(tracking: Tracking, measures: Measures) -> Figure:
@@ -82,13 +93,20 @@ def _flat(tracking: Tracking, measures: Measures) -> Figure:
         return Curve(name, color, seen[:, first], seen[:, second], dash)
 
     everywhere = np.ones(len(points), dtype=bool)
-    curves = [curve("asked for", ASKED, points, everywhere, 0)]
+    curves = [curve(tr("asked for"), ASKED, points, everywhere, 0)]
     curves.append(curve("reached", REACHED, tracking.actual, everywhere, 2))
     if not tracking.complete:
-        curves.append(curve("out of reach", MISSED, points, ~tracking.reached, 1))
+        curves.append(curve(tr("out of reach"), MISSED, points, ~tracking.reached, 1))
     across, up = (f"{'xyz'[axis]} [{unit}]" for axis in (first, second))
-    chart = Chart("The path, flat", across, up, tuple(curves), height=190.0, equal=True)
-    return Figure(f"The path along {'xyz'[first]} and {'xyz'[second]} of the base, both in the same scale.", (chart,))
+    chart = Chart(tr("The path, flat"), across, up, tuple(curves), height=190.0, equal=True)
+    return Figure(
+        tr(
+            "The path along {value} and {value2} of the base, both in the same scale.",
+            value="xyz"[first],
+            value2="xyz"[second],
+        ),
+        (chart,),
+    )
 
 
 def _between(study: Study, measures: Measures) -> list[tuple[Words, ...]]:
@@ -97,7 +115,7 @@ def _between(study: Study, measures: Measures) -> list[tuple[Words, ...]]:
     if deviation is None or not np.isfinite(deviation).any():
         return []
     factor, unit = fine_unit(deviation, measures)
-    return [("Largest deviation of the motion", number(float(np.nanmax(deviation)) * factor, 2), unit)]
+    return [(tr("Largest deviation of the motion"), number(float(np.nanmax(deviation)) * factor, 2), unit)]
 
 
 def _deviation(
@@ -106,12 +124,12 @@ def _deviation(
     if not len(deviation):
         return
     values = (math.sqrt(float(np.mean(deviation**2))), float(deviation.max()), float(deviation.mean()))
-    for name, value in zip(("RMS deviation", "Largest deviation", "Mean deviation"), values, strict=True):
+    for name, value in zip((tr("RMS deviation"), tr("Largest deviation"), tr("Mean deviation")), values, strict=True):
         yield name, scientific(value * measures.length.factor), measures.length.unit
 
 
 def _findings(study: Study, report: Report) -> Iterator[Block]:
-    yield Paragraph((Run("The check before the motion. ", "bold"), Run(summary_sentence(report))))
+    yield Paragraph((Run(tr("The check before the motion. "), "bold"), Run(summary_sentence(report))))
     marks = tuple(Run(SYMBOLS[finding.severity], finding.severity) for finding in report.findings)
     items = tuple(
         (Run(f"{WORDS[finding.kind]}. ", "bold"), Run(finding_sentence(report, finding, study.units)))
@@ -124,17 +142,17 @@ def _peaks(report: Report, measures: Measures) -> Iterator[Block]:
     if not report.speeds:
         return
     columns = (
-        Column("i", "center"), Column("Joint", "left"), Column("unit", "center"), Column("max |q̇| [1/s]"),
+        Column("i", "center"), Column(tr("Joint"), "left"), Column("unit", "center"), Column("max |q̇| [1/s]"),
         Column("limit"), Column("share"), Column("max |q̈| [1/s²]"), Column("limit"), Column("share"),
     )  # fmt: skip
     pairs = zip(report.speeds, report.accelerations, strict=True)
     rows = tuple(_peak_row(index, speed, rate, report, measures) for index, (speed, rate) in enumerate(pairs))
     assumed = any(peak.limit is not None and peak.limit.assumed for peak in (*report.speeds, *report.accelerations))
     yield Table(
-        "The most that the joints do on the way.",
+        tr("The most that the joints do on the way."),
         columns,
         rows,
-        f"{ASSUMED} assumed: no source gives it." if assumed else "",
+        tr("{assumed} assumed: no source gives it.", assumed=ASSUMED) if assumed else "",
     )
 
 

@@ -9,6 +9,7 @@ from rvsim.kinematics import joint_transforms
 from rvsim.lab.report.figures import PLAIN, Measures, transform_latex
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Formula, Formulas, Paragraph, Section, Table, Words
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.spatial import axis_angle_from_rotation, quaternion_from_rotation, rpy_from_rotation
 
@@ -21,12 +22,12 @@ def pose_section(study: Study, measures: Measures) -> Section:
         for number, A in enumerate(joint_transforms(robot, study.q), 1)
     )
     return Section(
-        "The pose: forward kinematics",
+        tr("The pose: forward kinematics"),
         (
             _joints_table(study, measures),
-            Paragraph(f"With these values the transforms of the links are (lengths in {unit}):"),
+            Paragraph(tr("With these values the transforms of the links are (lengths in {unit}):", unit=unit)),
             Formulas(links),
-            Paragraph(f"Their product is the pose of the tool in the base frame (lengths in {unit}):"),
+            Paragraph(tr("Their product is the pose of the tool in the base frame (lengths in {unit}):", unit=unit)),
             Formula("{}^{b}T_t", (_product(robot), transform_latex(study.T, measures.length))),
             *_tool(study, measures),
         ),
@@ -42,12 +43,14 @@ def _product(robot: Robot) -> str:
 def _joints_table(study: Study, measures: Measures) -> Table:
     si = "rad" if study.robot.is_revolute.all() else f"rad, {measures.metre}"
     columns = (
-        Column("i", "center"), Column("Joint", "left"), Column("unit", "center"), Column("qᵢ"),
-        Column("nearer limit"), Column("room to it"), Column(f"qᵢ [{si}]"),
+        Column("i", "center"), Column(tr("Joint"), "left"), Column("unit", "center"), Column("qᵢ"),
+        Column(tr("nearer limit")), Column(tr("room to it")), Column(f"qᵢ [{si}]"),
     )  # fmt: skip
     rows = tuple(_joint_row(index, study, measures) for index in range(study.robot.dof))
     outside = bool(limit_violations(study.robot, study.q))
-    return Table("The joints.", columns, rows, "Room below 0: the joint is outside its limits." if outside else "")
+    return Table(
+        tr("The joints."), columns, rows, tr("Room below 0: the joint is outside its limits.") if outside else ""
+    )
 
 
 def _joint_row(index: int, study: Study, measures: Measures) -> tuple[Words, ...]:
@@ -64,16 +67,22 @@ def _tool(study: Study, measures: Measures) -> tuple[Block, ...]:
     axis, angle = axis_angle_from_rotation(R)
     length, turn = measures.length, measures.angle
     columns = (
-        Column("Quantity", "left"),
+        Column(tr("Quantity"), "left"),
         Column("entries", "left"),
         *(Column("") for _ in range(4)),
         Column("unit", "left"),
     )
     rows = (
-        ("Position", "x, y, z", *(length.text(float(v)) for v in place), "", length.unit),
-        ("Orientation", "roll, pitch, yaw", *(turn.text(float(v)) for v in rpy), "", turn.unit),
-        ("Quaternion", "w, x, y, z", *(PLAIN.text(float(v)) for v in quaternion), ""),
-        ("Axis and angle", "x, y, z; angle", *(PLAIN.text(float(v)) for v in axis), turn.text(float(angle)), turn.unit),
+        (tr("Position"), "x, y, z", *(length.text(float(v)) for v in place), "", length.unit),
+        (tr("Orientation"), tr("roll, pitch, yaw"), *(turn.text(float(v)) for v in rpy), "", turn.unit),
+        (tr("Quaternion"), "w, x, y, z", *(PLAIN.text(float(v)) for v in quaternion), ""),
+        (
+            tr("Axis and angle"),
+            "x, y, z; angle",
+            *(PLAIN.text(float(v)) for v in axis),
+            turn.text(float(angle)),
+            turn.unit,
+        ),
     )
-    note = "R = Rz(yaw) Ry(pitch) Rx(roll), about the axes of the base; the axis is a unit vector."
-    return (Table("Place and orientation of the tool.", columns, rows, note),)
+    note = tr("R = Rz(yaw) Ry(pitch) Rx(roll), about the axes of the base; the axis is a unit vector.")
+    return (Table(tr("Place and orientation of the tool."), columns, rows, note),)

@@ -11,6 +11,7 @@ from rvsim.lab.report.pictures import robot_picture
 from rvsim.lab.report.servo_table import servo_tables
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Formula, Items, Paragraph, Section, Table, Words
+from rvsim.language import tr, tr_later
 from rvsim.robot import Datum, Joint, Robot
 
 _LINK_PRODUCTS = {
@@ -18,8 +19,8 @@ _LINK_PRODUCTS = {
     "modified": "R_x(\\alpha_{i-1})\\,T_x(a_{i-1})\\,T_z(d_i)\\,R_z(\\theta_i)",
 }
 _CONVENTIONS = {
-    "standard": "standard Denavit–Hartenberg convention",
-    "modified": "modified Denavit–Hartenberg convention (Craig)",
+    "standard": tr_later("standard Denavit–Hartenberg convention"),
+    "modified": tr_later("modified Denavit–Hartenberg convention (Craig)"),
 }
 _ZERO = 1e-12
 
@@ -28,11 +29,16 @@ def robot_section(study: Study, measures: Measures) -> Section:
     """Picture, table, transforms, origin of the numbers."""
     robot = study.robot
     return Section(
-        "The robot",
+        tr("The robot"),
         (
             Paragraph(_introduction(robot)),
-            Figure("The arm in the pose of this report, with the frames of its table.", (robot_picture(study),)),
-            Paragraph(f"Its links follow the {_CONVENTIONS[robot.convention]}; one link is the product"),
+            Figure(tr("The arm in the pose of this report, with the frames of its table."), (robot_picture(study),)),
+            Paragraph(
+                tr(
+                    "Its links follow the {conventions}; one link is the product",
+                    conventions=_CONVENTIONS[robot.convention],
+                )
+            ),
             Formula("{}^{i-1}T_i = A_i", (_LINK_PRODUCTS[robot.convention],)),
             _dh_table(robot, measures),
             *_fixed_transforms(robot, measures),
@@ -49,8 +55,16 @@ def _introduction(robot: Robot) -> str:
     sliding = robot.dof - turning
     kinds = [f"{counted(turning, 'joint that turns', 'joints that turn')}"] * (turning > 0)
     kinds += [f"{counted(sliding, 'that slides', 'that slide')}"] * (sliding > 0)
-    variable = " The variable qᵢ of a joint is an angle where it turns and a length where it slides." if sliding else ""
-    return f"The {robot.title}{family} has {' and '.join(kinds)}.{variable}"
+    variable = (
+        tr(" The variable qᵢ of a joint is an angle where it turns and a length where it slides.") if sliding else ""
+    )
+    return tr(
+        "The {title}{family} has {kinds}.{variable}",
+        title=robot.title,
+        family=family,
+        kinds=" and ".join(kinds),
+        variable=variable,
+    )
 
 
 def _dh_table(robot: Robot, measures: Measures) -> Table:
@@ -59,14 +73,14 @@ def _dh_table(robot: Robot, measures: Measures) -> Table:
     units = (measures.angle.unit, measures.length.unit, measures.length.unit, measures.angle.unit)
     columns = (
         Column("i", "center"),
-        Column("Joint", "left"),
+        Column(tr("Joint"), "left"),
         *(Column(f"{head} [{unit}]") for head, unit in zip(heads, units, strict=True)),
     )
     rows = tuple(_dh_row(index, joint, measures) for index, joint in enumerate(robot.joints))
-    note = "qᵢ: the joint variable."
+    note = tr("qᵢ: the joint variable.")
     if any(joint.dh_assumed for joint in robot.joints):
-        note += f" {ASSUMED} assumed: no source gives the row."
-    return Table(f"DH parameters of the {robot.title}.", columns, rows, note)
+        note += tr(" {assumed} assumed: no source gives the row.", assumed=ASSUMED)
+    return Table(tr("DH parameters of the {title}.", title=robot.title), columns, rows, note)
 
 
 def _dh_row(index: int, joint: Joint, measures: Measures) -> tuple[Words, ...]:
@@ -87,17 +101,23 @@ def _with_variable(variable: str, offset: float, measure: Measure) -> str:
 def _fixed_transforms(robot: Robot, measures: Measures) -> Iterator[Block]:
     unit = measures.length.unit
     if not np.allclose(robot.T_base_0, np.eye(4), atol=_ZERO):
-        yield Paragraph(f"Frame 0 of the table stands in the base frame as follows (lengths in {unit}):")
+        yield Paragraph(tr("Frame 0 of the table stands in the base frame as follows (lengths in {unit}):", unit=unit))
         yield Formula("{}^{b}T_0", (transform_latex(robot.T_base_0, measures.length),))
     if not np.allclose(robot.T_flange_tool, np.eye(4), atol=_ZERO):
-        yield Paragraph(f"The tool is “{robot.tool.title}”; it is bolted to the flange by (lengths in {unit})")
+        yield Paragraph(
+            tr(
+                "The tool is “{title}”; it is bolted to the flange by (lengths in {unit})",
+                title=robot.tool.title,
+                unit=unit,
+            )
+        )
         yield Formula(f"{{}}^{{{robot.dof}}}T_t", (transform_latex(robot.T_flange_tool, measures.length),))
 
 
 def _limits_table(robot: Robot, measures: Measures) -> Table:
     columns = (
         Column("i", "center"),
-        Column("Joint", "left"),
+        Column(tr("Joint"), "left"),
         Column("unit", "center"),
         Column("from"),
         Column("to"),
@@ -108,8 +128,12 @@ def _limits_table(robot: Robot, measures: Measures) -> Table:
     )
     rows = tuple(_limits_row(index, joint, measures) for index, joint in enumerate(robot.joints))
     assumed = any(_marked(joint) for joint in robot.joints)
-    note = f"{ASSUMED} assumed: no source gives it. Speed and acceleration in the joint's unit." if assumed else ""
-    return Table("Limits of the joints, and what their drives may do.", columns, rows, note)
+    note = (
+        tr("{assumed} assumed: no source gives it. Speed and acceleration in the joint's unit.", assumed=ASSUMED)
+        if assumed
+        else ""
+    )
+    return Table(tr("Limits of the joints, and what their drives may do."), columns, rows, note)
 
 
 def _marked(joint: Joint) -> bool:
@@ -135,8 +159,8 @@ def _rated(datum: Datum | None, factor: float) -> str:
 
 def _origin(robot: Robot) -> Iterator[Block]:
     if robot.source:
-        yield Paragraph(f"Source of the numbers: {robot.source}.".replace("..", "."))
+        yield Paragraph(tr("Source of the numbers: {source}.", source=robot.source).replace("..", "."))
     notes = tuple(line.strip() for line in robot.notes.strip().splitlines() if line.strip())
     if notes:
-        yield Paragraph("What to know about them:")
+        yield Paragraph(tr("What to know about them:"))
         yield Items(notes)

@@ -10,6 +10,7 @@ from rvsim.lab.report.figures import PLAIN, Measure, Measures, scientific
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Formula, Paragraph, Run, Section
 from rvsim.lab.sources import Comparison, Erratum, errata
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 
 _TINY = 5e-4
@@ -19,19 +20,20 @@ _FEW = 6  # numbers that still fit into a sentence
 def sources_section(study: Study, measures: Measures) -> Section:
     """One entry an erratum."""
     found = errata(study.robot)
-    sources = " and ".join(dict.fromkeys(f"source {entry.source}" for entry in found))
-    lead = (
-        f"Where {sources} of this arm prints what is not right: the formula as printed, what this report computes with "
-        "instead, the reason, and both worked out at the pose of this report (with nothing bolted to the flange)."
+    sources = " and ".join(dict.fromkeys(tr("source {source}", source=entry.source) for entry in found))
+    lead = tr(
+        "Where {sources} of this arm prints what is not right: the formula as printed, what this report computes with "
+        "instead, the reason, and both worked out at the pose of this report (with nothing bolted to the flange).",
+        sources=sources,
     )
     return Section(
-        "What the sources print, and what is right",
+        tr("What the sources print, and what is right"),
         (Paragraph(lead), *(block for entry in found for block in _entry(study, entry, measures))),
     )
 
 
 def _entry(study: Study, entry: Erratum, measures: Measures) -> Iterator[Block]:
-    head = f"Source {entry.source}, {entry.where}: {entry.title}."
+    head = tr("Source {source}, {where}: {title}.", source=entry.source, where=entry.where, title=entry.title)
     yield Paragraph((Run(head, "bold"), Run(f" {entry.why}")))
     for label, formulas in (("printed", entry.printed_latex), ("right", entry.right_latex)):
         for number, latex in enumerate(formulas):
@@ -46,16 +48,20 @@ def _numbers(study: Study, entry: Erratum, measures: Measures) -> str:
     if found is None:
         return ""
     if np.isnan(found.printed).any():
-        return f"At this pose: {entry.undefined[0].lower()}{entry.undefined[1:]}"
+        return tr("At this pose: {lower}{undefined}", lower=entry.undefined[0].lower(), undefined=entry.undefined[1:])
     if found.agree:
-        return "At this pose the printed formula happens to give the right value."
+        return tr("At this pose the printed formula happens to give the right value.")
     if found.right.size <= _FEW and found.right.ndim < 2:
-        return (
-            f"At this pose: printed {_few(found.printed, found, measures)}, right {_few(found.right, found, measures)}."
+        return tr(
+            "At this pose: printed {few}, right {few2}.",
+            few=_few(found.printed, found, measures),
+            few2=_few(found.right, found, measures),
         )
     wrong = int(found.differs.sum())
-    entries = f"{wrong} of {found.right.size} entries differ"
-    return f"At this pose {entries}; the largest difference is {_worst(found, measures)}."
+    entries = tr("{wrong} of {size} entries differ", wrong=wrong, size=found.right.size)
+    return tr(
+        "At this pose {entries}; the largest difference is {worst}.", entries=entries, worst=_worst(found, measures)
+    )
 
 
 def _few(values: FloatArray, found: Comparison, measures: Measures) -> str:

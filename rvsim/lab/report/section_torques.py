@@ -11,6 +11,7 @@ from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, joint_torques, pay
 from rvsim.lab.report.figures import ASSUMED, DASH, number, table_latex
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Formula, Items, Paragraph, Section, Table, Words
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -43,7 +44,7 @@ def torques_section(study: Study) -> Section:
     """The load, the formula with its numbers, one row a joint."""
     found = torques_of(study)
     return Section(
-        "Forces and torques",
+        tr("Forces and torques"),
         (
             Paragraph(_load_words(study)),
             *(_formula(study, found) if np.any(found.wrench) else ()),
@@ -58,17 +59,24 @@ def _load_words(study: Study) -> str:
     parts = []
     if np.any(load.wrench):
         force, moment = (", ".join(number(float(v), 2) for v in load.wrench[k : k + 3]) for k in (0, 3))
-        parts.append(f"exerts the force ({force}) N and the moment ({moment}) N m in {load.axes} axes")
+        parts.append(
+            tr(
+                "exerts the force ({force}) N and the moment ({moment}) N m in {axes} axes",
+                force=force,
+                moment=moment,
+                axes=load.axes,
+            )
+        )
     if load.payload:
-        parts.append(f"carries {load.payload:.3g} kg")
+        parts.append(tr("carries {payload:.3g} kg", payload=load.payload))
     if not parts:
-        return "No force at the tool and no payload were set: the drives hold the arm alone."
-    balance = "The joints balance it with τ = Jᵀ F, F being what the tool exerts at its origin."
-    return f"The tool {' and '.join(parts)}. {balance}"
+        return tr("No force at the tool and no payload were set: the drives hold the arm alone.")
+    balance = tr("The joints balance it with τ = Jᵀ F, F being what the tool exerts at its origin.")
+    return tr("The tool {parts}. {balance}", parts=" and ".join(parts), balance=balance)
 
 
 def _formula(study: Study, found: Torques) -> Iterator[Block]:
-    yield Paragraph("With F in base axes, force [N] above moment [N m]:")
+    yield Paragraph(tr("With F in base axes, force [N] above moment [N m]:"))
     yield Formula(
         "\\tau",
         (
@@ -81,17 +89,17 @@ def _formula(study: Study, found: Torques) -> Iterator[Block]:
 
 def _table(study: Study, found: Torques) -> Table:
     robot = study.robot
-    heads = ("from F", "own weight", "together", "rated", "share")
-    columns = (Column("i", "center"), Column("Joint", "left"), Column("unit", "center"), *map(Column, heads))
+    heads = ("from F", tr("own weight"), "together", "rated", "share")
+    columns = (Column("i", "center"), Column(tr("Joint"), "left"), Column("unit", "center"), *map(Column, heads))
     rows = tuple(_row(robot, index, found) for index in range(robot.dof))
     note = (
-        f"{ASSUMED} assumed: no source gives it."
+        tr("{assumed} assumed: no source gives it.", assumed=ASSUMED)
         if any(j.max_torque and j.max_torque.assumed for j in robot.joints)
         else ""
     )
     if found.weight is None:
-        note = f"{note} {DASH}: the masses of this arm are not known.".strip()
-    return Table("Torques of the joints at rest.", columns, rows, note)
+        note = tr("{note} {dash}: the masses of this arm are not known.", note=note, dash=DASH).strip()
+    return Table(tr("Torques of the joints at rest."), columns, rows, note)
 
 
 def _row(robot: Robot, index: int, found: Torques) -> tuple[Words, ...]:
@@ -108,5 +116,5 @@ def _row(robot: Robot, index: int, found: Torques) -> tuple[Words, ...]:
 def _weight(robot: Robot) -> Iterator[Block]:
     sources = tuple(dict.fromkeys(mass.source for mass in robot.masses if mass.source))
     if any(mass.assumed for mass in robot.masses):
-        yield Paragraph("The masses behind the column “own weight” are assumed, not measured:", "note")
+        yield Paragraph(tr("The masses behind the column “own weight” are assumed, not measured:"), "note")
         yield Items(sources)

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 from rvsim.lab.report.figures import DASH, Measures, number
 from rvsim.lab.report.values import Column, Table, Words
+from rvsim.language import tr, tr_later
 from rvsim.robot import GripperServo, Robot, Servo
 
-_NOTE = "pulse = zero + direction · gain · q, kept between the shortest and the longest."
+_NOTE = tr_later("pulse = zero + direction · gain · q, kept between the shortest and the longest.")
 
 
 def servo_tables(robot: Robot, measures: Measures) -> Iterator[Table]:
@@ -16,7 +17,7 @@ def servo_tables(robot: Robot, measures: Measures) -> Iterator[Table]:
     if not robot.servos:
         return
     columns = (
-        Column("Joint", "left"), Column("channel"), Column("direction"), Column(f"gain [µs/{_units(robot, measures)}]"),
+        Column(tr("Joint"), "left"), Column("channel"), Column("direction"), Column(tr("gain [µs/{units}]", units=_units(robot, measures))),
         Column("zero [µs]"), Column("min [µs]"), Column("max [µs]"), Column("origin", "left", wide=True),
     )  # fmt: skip
     rows = [_row(f"J{i + 1} {robot.joint_names[i]}", i, servo, measures) for i, servo in enumerate(robot.servos)]
@@ -24,10 +25,12 @@ def servo_tables(robot: Robot, measures: Measures) -> Iterator[Table]:
     note = _NOTE
     if gripper is not None:
         rows.append(_gripper_row(gripper))
-        note += (
-            f" The gripper is closed at {number(gripper.closed_us, 0)} µs and open at {number(gripper.open_us, 0)} µs."
+        note += tr(
+            " The gripper is closed at {number} µs and open at {number2} µs.",
+            number=number(gripper.closed_us, 0),
+            number2=number(gripper.open_us, 0),
         )
-    yield Table("Calibration of the servos.", columns, tuple(rows), note)
+    yield Table(tr("Calibration of the servos."), columns, tuple(rows), note)
 
 
 def _units(robot: Robot, measures: Measures) -> str:
@@ -48,5 +51,5 @@ def _gripper_row(servo: GripperServo) -> tuple[Words, ...]:
 
 
 def _origin(servo: Servo | GripperServo) -> str:
-    words = servo.source or "the robot file"
-    return f"assumed ({words})" if servo.assumed else words
+    words = servo.source or tr("the robot file")
+    return tr("assumed ({words})", words=words) if servo.assumed else words

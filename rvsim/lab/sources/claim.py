@@ -8,6 +8,7 @@ from rvsim.experiment import PathOrientation
 from rvsim.files import load_robot
 from rvsim.lab.named_paths import named_path
 from rvsim.lab.sources.figures import Numbers
+from rvsim.language import tr
 from rvsim.motion import Path, track
 from rvsim.robot import Robot
 
@@ -28,8 +29,16 @@ def drawn(key: str, item: str, robot: Robot, path: Path, *, ignore_limits: bool 
     """The source draws every point; how many the arm can draw."""
     wanted = path.samples
     reached = track(robot, path, ignore_limits=ignore_limits).reached_count
-    verdict = "confirmed" if reached == wanted else "partly reached" if reached else "cannot be reached"
-    return Claim(key, key[:3], f"{item}, points reached of {wanted}", float(wanted), None, float(reached), verdict)
+    verdict = "confirmed" if reached == wanted else tr("partly reached") if reached else tr("cannot be reached")
+    return Claim(
+        key,
+        key[:3],
+        tr("{item}, points reached of {wanted}", item=item, wanted=wanted),
+        float(wanted),
+        None,
+        float(reached),
+        verdict,
+    )
 
 
 def drawn_by_name(key: str, item: str, arm: str, name: str, orientation: PathOrientation | None = None) -> Claim:

@@ -19,6 +19,7 @@ from rvsim.lab.sources.source_002_errata import spacing, tilt_range
 from rvsim.lab.sources.source_003 import program_place, roll
 from rvsim.lab.sources.source_004_motion import quintic_coefficients
 from rvsim.lab.tables import shown_length
+from rvsim.language import tr
 from rvsim.motion import track
 from rvsim.motion.laws import cubic, quintic_between
 from rvsim.spatial import rotation_error_angle
@@ -46,7 +47,7 @@ def other_claims() -> tuple[Callable[[], tuple[Claim, ...]], ...]:
 def _source_001() -> tuple[Claim, ...]:
     robot = load_robot("rv-1a")
     place = as_numbers(millimetres_from_metres(forward_kinematics(robot, UPRIGHT_001)[:3, 3]))
-    item = f"Table 1: tool's place [mm] at {pose_text(robot, UPRIGHT_001)}"
+    item = tr("Table 1: tool's place [mm] at {pose}", pose=pose_text(robot, UPRIGHT_001))
     return (Claim("001-table", "001", item, None, None, place, "computed"),)
 
 
@@ -56,31 +57,37 @@ def _ellipse_points() -> tuple[Claim, ...]:
     gaps = as_numbers(millimetres_from_metres(spacing(robot, robot.home)))
     own, count = "002-code-1", float(len(ellipse()))
     return (
-        Claim(own, "002", "Code 1: the number of points", 184.0, float(ELLIPSE_SAMPLES), count, "confirmed"),
-        Claim(own, "002", "Code 1: the second point, x and y [mm]", (134.9794, 100.8582), first, first, "confirmed"),
-        Claim(own, "002", "Code 1: least and largest distance of neighbours [mm]", 1.2, gaps, gaps, "contradiction"),
+        Claim(own, "002", tr("Code 1: the number of points"), 184.0, float(ELLIPSE_SAMPLES), count, "confirmed"),
+        Claim(
+            own, "002", tr("Code 1: the second point, x and y [mm]"), (134.9794, 100.8582), first, first, "confirmed"
+        ),
+        Claim(
+            own, "002", tr("Code 1: least and largest distance of neighbours [mm]"), 1.2, gaps, gaps, "contradiction"
+        ),
     )
 
 
 def _ellipse_drawn() -> tuple[Claim, ...]:
     robot = load_robot("ur5e")
     tilts = as_numbers(degrees_from_radians(tilt_range(robot, robot.home)))
-    item = "Code 2: tool axis to the desired one, with right formulas [deg]"
+    item = tr("Code 2: tool axis to the desired one, with right formulas [deg]")
     return (
         Claim("002-ik", "002", item, 0.0, tilts, 0.0, "ignored"),
-        drawn_by_name("002-rotation", "The ellipse with the desired rotation", "ur5e", "ellipse"),
-        drawn_by_name("002-any", "The ellipse with any rotation", "ur5e", "ellipse", "free"),
+        drawn_by_name("002-rotation", tr("The ellipse with the desired rotation"), "ur5e", "ellipse"),
+        drawn_by_name("002-any", tr("The ellipse with any rotation"), "ur5e", "ellipse", "free"),
     )
 
 
 def _gravity() -> tuple[Claim, ...]:
-    return tuple(_gravity_at(f"002-gravity-{number}", pose) for number, pose in enumerate(GRAVITY_002, start=1))
+    return tuple(
+        _gravity_at(tr("002-gravity-{number}", number=number), pose) for number, pose in enumerate(GRAVITY_002, start=1)
+    )
 
 
 def _gravity_at(key: str, pose_deg: tuple[float, ...]) -> Claim:
     torques = as_numbers(gravity_torques(load_robot("ur5e"), radians_from_degrees(pose_deg)))
     pose = ", ".join(f"{angle:g}" for angle in pose_deg).replace("-", "\u2212")
-    item = f"Table: torques that hold the arm by its masses [N m] at ({pose})°"
+    item = tr("Table: torques that hold the arm by its masses [N m] at ({pose})°", pose=pose)
     return Claim(key, "002", item, None, None, torques, "computed")
 
 
@@ -93,10 +100,10 @@ def _source_003() -> tuple[Claim, ...]:
     turned = degrees_from_radians(float(np.max(rotation_error_angle(R_wrong, R))))
     places = np.array([program_place(robot, q, float(robot.dh[1, 2])) for q in tracking.q])
     gap = as_numbers(np.abs(places - spiral()).max())
-    error = "θ₃ in the program: largest error of the tool's orientation [deg]"
+    error = tr("θ₃ in the program: largest error of the tool's orientation [deg]")
     return (
-        drawn_by_name("003-spiral", "The spiral", "rrrp", "spiral"),
-        Claim("003-spiral", "003", "AT with l₅: largest distance from the path [unit]", 0.0, gap, 0.0, "confirmed"),
+        drawn_by_name("003-spiral", tr("The spiral"), "rrrp", "spiral"),
+        Claim("003-spiral", "003", tr("AT with l₅: largest distance from the path [unit]"), 0.0, gap, 0.0, "confirmed"),
         Claim("003-t3", "003", error, 0.0, turned, 0.0, "misprint"),
     )
 
@@ -114,7 +121,7 @@ def _farthest(figure: str, arm: str) -> Claim:
     ]
     places = forward_kinematics(robot, np.array(list(product(*values))))[:, :3, 3]
     farthest = as_numbers(shown_length(robot, np.hypot(places[:, 0], places[:, 1]).max()))
-    item = f"Figure {figure}: farthest from the base axis, within the limits [mm]"
+    item = tr("Figure {figure}: farthest from the base axis, within the limits [mm]", figure=figure)
     return Claim(f"004-{figure}", "004", item, None, None, farthest, "computed")
 
 
@@ -125,11 +132,13 @@ def _source_004() -> tuple[Claim, ...]:
     start = as_numbers(cubic(0.0, 2.0, 0.0, 40.0).at(0.0).qdd[0])
     printed = as_numbers(quintic_coefficients(0.0, 40.0, 0.0, 2.0, as_printed=True))
     ours = as_numbers(quintic_between(0.0, 2.0, 0.0, 40.0).coefficients[0, :, 0])
-    quintic = "(5.22) with t₀ = 0: a₀ to a₅ from 0 to 40° in 2 s [deg, s]"
-    jump = "Section 5.1: acceleration at the start of a cubic from 0 to 40° in 2 s [deg/s²]"
+    quintic = tr("(5.22) with t₀ = 0: a₀ to a₅ from 0 to 40° in 2 s [deg, s]")
+    jump = tr("Section 5.1: acceleration at the start of a cubic from 0 to 40° in 2 s [deg/s²]")
     return (
-        Claim("004-3.1", "004", "Table 3.1: tool's place [mm] with all joints 0", None, None, place, "computed"),
-        Claim("004-4.1", "004", "Figure 4.1: smallest singular value, stretched out", 0.0, None, sigma, "confirmed"),
+        Claim("004-3.1", "004", tr("Table 3.1: tool's place [mm] with all joints 0"), None, None, place, "computed"),
+        Claim(
+            "004-4.1", "004", tr("Figure 4.1: smallest singular value, stretched out"), 0.0, None, sigma, "confirmed"
+        ),
         Claim("004-cubic", "004", jump, None, None, start, "computed"),
         Claim("004-quintic", "004", quintic, None, printed, ours, "confirmed"),
     )

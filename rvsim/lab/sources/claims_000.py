@@ -18,6 +18,7 @@ from rvsim.lab.sources.claim import Claim, drawn, drawn_by_name
 from rvsim.lab.sources.figures import Numbers, as_numbers, pose_text
 from rvsim.lab.sources.programs_000 import BOXES, LETTER_PAUSE, LINE_PAUSE, compute_dh_matrix, rvm1_fk
 from rvsim.lab.sources.source_000_frames import TEXT_POSE
+from rvsim.language import tr
 from rvsim.motion import Path
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -49,11 +50,12 @@ def _of_the_text() -> tuple[Claim, ...]:
     branches = inverse_branches(robot, forward_kinematics(robot, TEXT_POSE))
     sigma = as_numbers(np.linalg.svd(jacobian(robot, STRETCHED_POSE)[:3, :4], compute_uv=False)[-1])
     return (
-        Claim("000-figure-5", "000", "Figure 5: range of θ₄ [deg]", (0.0, 180.0), None, (lower, upper),
+        Claim("000-figure-5", "000", tr("Figure 5: range of θ₄ [deg]"), (0.0, 180.0), None, (lower, upper),
               "contradiction"),
-        Claim("000-6.1", "000", f"Section 6.1: solutions for the tool at {_at(TEXT_POSE)}", None, None,
+        Claim("000-6.1", "000", tr("Section 6.1: solutions for the tool at {at}", at=_at(TEXT_POSE)), None, None,
               float(len(branches)), "computed"),
-        Claim("000-30", "000", "(30): smallest singular value of Ĵ at θ₃ = 0, θ₄ = 90°", 0.0, 0.0, sigma, "confirmed"),
+        Claim("000-30", "000", tr("(30): smallest singular value of Ĵ at θ₃ = 0, θ₄ = "
+                                  "90°"), 0.0, 0.0, sigma, "confirmed"),
     )  # fmt: skip
 
 
@@ -61,10 +63,10 @@ def _forward_programs() -> tuple[Claim, ...]:
     robot = load_robot(_ARM)
     block = float(np.linalg.det(compute_dh_matrix(0.0, 0.7, 0.0, TEXT_POSE[0])[:3, :3]))
     return (
-        _tool_claim(robot, "000-P1", "Program 1: tool's place", EXAMPLE_POSE),
-        Claim("000-P2", "000", "Program 2: determinant with θ₁ = 30° and α = 0.7 rad", None, as_numbers(block), 1.0,
+        _tool_claim(robot, "000-P1", tr("Program 1: tool's place"), EXAMPLE_POSE),
+        Claim("000-P2", "000", tr("Program 2: determinant with θ₁ = 30° and α = 0.7 rad"), None, as_numbers(block), 1.0,
               "confirmed"),
-        _tool_claim(robot, "000-P3", "Program 3, pos(6): tool's place", TEXT_POSE),
+        _tool_claim(robot, "000-P3", tr("Program 3, pos(6): tool's place"), TEXT_POSE),
     )  # fmt: skip
 
 
@@ -77,18 +79,18 @@ def _figure_programs() -> tuple[Claim, ...]:
     robot = load_robot(_ARM)
     drawn_length = np.linalg.norm(np.diff(rvm1_fk(np.array(EXAMPLE_POSE))[:6], axis=0), axis=1).sum()
     return (
-        Claim("000-P4", "000", "Program 4: length of the stick figure [mm]", None, _mm(drawn_length),
+        Claim("000-P4", "000", tr("Program 4: length of the stick figure [mm]"), None, _mm(drawn_length),
               _mm(np.abs(robot.dh[:, 1:3]).sum()), "confirmed"),
-        _elbow(robot, "Program 5", 90.0),
-        _elbow(robot, "Program 6", 60.0),
+        _elbow(robot, tr("Program 5"), 90.0),
+        _elbow(robot, tr("Program 6"), 60.0),
     )  # fmt: skip
 
 
 def _elbow(robot: Robot, program: str, printed: float) -> Claim:
     lower, upper = degrees_from_radians(robot.limits[2])
     nearest = float(np.clip(printed, lower, upper))
-    item = f"{program}: elbow θ₃, nearest within the limits [deg]"
-    return Claim(f"000-P{program[-1]}", "000", item, printed, None, nearest, "outside limits")
+    item = tr("{program}: elbow θ₃, nearest within the limits [deg]", program=program)
+    return Claim(f"000-P{program[-1]}", "000", item, printed, None, nearest, tr("outside limits"))
 
 
 def source_line(robot: Robot) -> Path:
@@ -100,8 +102,10 @@ def _line_points() -> tuple[Claim, ...]:
     robot = load_robot(_ARM)
     points = float(COMMENT_LINE.samples)
     return (
-        Claim("000-P7", "000", "Program 7: points of a line with the step 0.1", 10.0, points, points, "contradiction"),
-        drawn("000-P7", "Program 7: the line of its comment", robot, line_of(robot, COMMENT_LINE)),
+        Claim(
+            "000-P7", "000", tr("Program 7: points of a line with the step 0.1"), 10.0, points, points, "contradiction"
+        ),
+        drawn("000-P7", tr("Program 7: the line of its comment"), robot, line_of(robot, COMMENT_LINE)),
     )
 
 
@@ -110,11 +114,12 @@ def _line_tracked() -> tuple[Claim, ...]:
     line = source_line(robot)
     reach = float(np.abs(robot.dh[1:, 1:3]).sum())
     return (
-        drawn("000-P8", "Program 8: the line, without limits", robot, line, ignore_limits=True),
-        Claim("000-P10", "000", "Programs 10 and 11: reach from the shoulder as the axes say [m]", None, 10.0 * reach,
+        drawn("000-P8", tr("Program 8: the line, without limits"), robot, line, ignore_limits=True),
+        Claim("000-P10", "000", tr("Programs 10 and 11: reach from the shoulder as the axes say "
+                                   "[m]"), None, 10.0 * reach,
               reach, "misprint"),
-        Claim("000-P10", "000", "Program 10: its pauses [s]", None, None, LINE_PAUSE * line.samples, "computed"),
-        drawn("000-P12", "Program 12: the line, within the source's limits", robot, line),
+        Claim("000-P10", "000", tr("Program 10: its pauses [s]"), None, None, LINE_PAUSE * line.samples, "computed"),
+        drawn("000-P12", tr("Program 12: the line, within the source's limits"), robot, line),
     )  # fmt: skip
 
 
@@ -129,8 +134,8 @@ def _solver() -> tuple[Claim, ...]:
         T[:3, :3], T[:3, 3] = rotation, point
         result = solve_numeric(robot, T, q, task=AS_IN_SOURCE_000.task, options=options, clock=_no_clock)
         q, found = result.q, found + result.converged
-    item = "Program 8: the line by Levenberg–Marquardt, tolerance 0.01, points found of 11"
-    return (Claim("000-P8", "000", item, 11.0, None, float(found), "partly reached"),)
+    item = tr("Program 8: the line by Levenberg–Marquardt, tolerance 0.01, points found of 11")
+    return (Claim("000-P8", "000", item, 11.0, None, float(found), tr("partly reached")),)
 
 
 def _no_clock() -> float:
@@ -144,12 +149,13 @@ def _letter() -> tuple[Claim, ...]:
     nearest = np.linalg.norm(letter_raw() - shoulder, axis=1).min()
     reach = np.abs(robot.dh[1:, 1:3]).sum()
     return (
-        drawn_by_name("000-P9", "Program 9: the letter as printed, in decimetres", _ARM, "letter-raw"),
-        Claim("000-P11", "000", "Program 11: its pauses [s]", None, None, LETTER_PAUSE * len(letter_raw()), "computed"),
-        Claim("000-P13", "000", "Program 13: the letter's nearest point from the shoulder, and the reach [mm]", None,
-              _mm(nearest), _mm(reach), "cannot be reached"),
+        drawn_by_name("000-P9", tr("Program 9: the letter as printed, in decimetres"), _ARM, "letter-raw"),
+        Claim("000-P11", "000", tr("Program 11: its pauses [s]"), None, None, LETTER_PAUSE * len(letter_raw()), "computed"),
+        Claim("000-P13", "000", tr("Program 13: the letter's nearest point from the shoulder, and the reach "
+                                   "[mm]"), None,
+              _mm(nearest), _mm(reach), tr("cannot be reached")),
         drawn_by_name(
-            "000-P16", "Program 16: the letter divided by 40, at a height of 300 mm", _ARM, "letter-scaled"
+            "000-P16", tr("Program 16: the letter divided by 40, at a height of 300 mm"), _ARM, "letter-scaled"
         ),
     )  # fmt: skip
 
@@ -159,8 +165,9 @@ def _window() -> tuple[Claim, ...]:
     exchanged = np.array(TEXT_POSE)[[0, 1, 2, 4, 3]]
     formula, ours = (_mm(forward_kinematics(robot, q)[:3, 3]) for q in (exchanged, np.array(TEXT_POSE)))
     return (
-        Claim("000-P14", "000", "Program 14: boxes to type into", float(BOXES), None, float(robot.dof + 6),
+        Claim("000-P14", "000", tr("Program 14: boxes to type into"), float(BOXES), None, float(robot.dof + 6),
               "confirmed"),
-        Claim("000-P15", "000", f"Program 15: tool's place [mm] for {_at(TEXT_POSE)} typed into boxes 7 to 11", None,
+        Claim("000-P15", "000", tr("Program 15: tool's place [mm] for {at} typed into boxes 7 to "
+                                   "11", at=_at(TEXT_POSE)), None,
               formula, ours, "misprint"),
     )  # fmt: skip

@@ -10,6 +10,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rvsim.language import tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.robot import NO_TOOL
@@ -77,7 +78,7 @@ class Erratum:
     rows: tuple[str, ...] = ()
     columns: tuple[str, ...] = ()
     tool: Evaluate | None = None
-    undefined: str = "The printed formula has no value here."
+    undefined: str = tr_later("The printed formula has no value here.")
 
     def compare(self, robot: Robot, q: ArrayLike) -> Comparison | None:
         """Both formulas at q (n,), the arm without a tool as in the sources; None for a remark without numbers."""

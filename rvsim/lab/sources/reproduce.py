@@ -16,6 +16,7 @@ from rvsim.lab.sources.collection import errata
 from rvsim.lab.sources.erratum import Comparison, Erratum
 from rvsim.lab.sources.experiments import keys_in_order
 from rvsim.lab.sources.figures import Numbers, as_numbers, pose_text, shown_value, unit_of
+from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray
 
 _SAME = 1e-6  # in the units that are printed
@@ -48,7 +49,7 @@ class _Pick(NamedTuple):
     of: Callable[[FloatArray], float | FloatArray]
 
 
-_PLACE = _Pick("tool's place", "mm", lambda T: 1e3 * T[:3, 3])
+_PLACE = _Pick(tr_later("tool's place"), "mm", lambda T: 1e3 * T[:3, 3])
 _DETERMINANT = _Pick("determinant", "", lambda T: float(np.linalg.det(T)))
 _RANK = _Pick("rank", "", lambda J: float(np.linalg.matrix_rank(J)) if np.isfinite(J).all() else np.nan)
 _PICKS = {
@@ -57,7 +58,7 @@ _PICKS = {
     "000-4": _DETERMINANT,
     "000-8": _PLACE,
     "000-9": _PLACE,
-    "000-21": _Pick("column 4, linear", "mm/rad", lambda J: 1e3 * J[:3, 3]),
+    "000-21": _Pick(tr_later("column 4, linear"), "mm/rad", lambda J: 1e3 * J[:3, 3]),
     "000-22": _RANK,
     "001-3": _PLACE._replace(name="origin"),
     "002-R": _Pick("e12, e22", "", lambda R: R[:2, 1]),
@@ -130,7 +131,7 @@ def reproduction_text(rows: tuple[Reproduction, ...]) -> str:
 
 
 def _paragraph(row: Reproduction) -> str:
-    values = (("printed", row.printed), ("its formula", row.formula), ("ours", row.ours))
+    values = (("printed", row.printed), (tr("its formula"), row.formula), ("ours", row.ours))
     numbers = "   ".join(f"{name} {shown_value(value)}" for name, value in values if value is not None)
     return f"{row.source}  {row.item}\n     {numbers}   {row.verdict}"
 

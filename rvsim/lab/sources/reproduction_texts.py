@@ -11,18 +11,26 @@ from rvsim.lab.sources.experiment import SourceExperiment
 from rvsim.lab.sources.figures import MINUS, Numbers, shown_value
 from rvsim.lab.sources.reproduce import Reproduction
 from rvsim.lab.texts import number_text
+from rvsim.language import tr, tr_later
 
-COLUMNS = ("Source", "Item", "Printed", "Its formula", "Right", "Verdict")
+COLUMNS = (
+    tr_later("Source"),
+    tr_later("Item"),
+    tr_later("Printed"),
+    tr_later("Its formula"),
+    tr_later("Right"),
+    tr_later("Verdict"),
+)
 VERDICTS = {
-    "confirmed": "The source is right here.",
-    "misprint": "The printed formula is not right.",
-    "contradiction": "The source contradicts itself.",
-    "undefined": "The printed formula has no value here.",
-    "ignored": "What the source asks for is not used.",
-    "outside limits": "The source's own limits do not allow it.",
-    "partly reached": "The arm reaches only some of the points.",
-    "cannot be reached": "The arm reaches none of it.",
-    "computed": "The source prints no number; this is ours.",
+    "confirmed": tr_later("The source is right here."),
+    "misprint": tr_later("The printed formula is not right."),
+    "contradiction": tr_later("The source contradicts itself."),
+    "undefined": tr_later("The printed formula has no value here."),
+    "ignored": tr_later("What the source asks for is not used."),
+    "outside limits": tr_later("The source's own limits do not allow it."),
+    "partly reached": tr_later("The arm reaches only some of the points."),
+    "cannot be reached": tr_later("The arm reaches none of it."),
+    "computed": tr_later("The source prints no number; this is ours."),
 }
 _LATEX = {
     "&": r"\&", "%": r"\%", "_": r"\_", MINUS: "$-$", "°": r"$^\circ$", "²": "$^2$", "“": "``", "”": "''", "–": "--",
@@ -40,7 +48,7 @@ def shown_cells(row: Reproduction, digits: int = 6) -> tuple[str, ...]:
 
 def row_sentence(row: Reproduction, experiment: SourceExperiment) -> str:
     """All that there is to say about a row."""
-    numbers = (("Printed", row.printed), ("its formula gives", row.formula), ("right is", row.ours))
+    numbers = ((tr("Printed"), row.printed), (tr("its formula gives"), row.formula), (tr("right is"), row.ours))
     said = ", ".join(f"{name} {shown_value(value)}" for name, value in numbers if value is not None)
     return f"{experiment.title}. {row.item}: {said[:1].lower()}{said[1:]}. {VERDICTS[row.verdict]} {experiment.shows}"
 

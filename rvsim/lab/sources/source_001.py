@@ -7,6 +7,7 @@ import numpy as np
 from rvsim.kinematics import link_transforms
 from rvsim.lab.sources.arms import at_place, degrees, place
 from rvsim.lab.sources.erratum import Erratum
+from rvsim.language import tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import inverse_transform
@@ -33,16 +34,16 @@ def wrist_centre(robot: Robot, q: FloatArray) -> FloatArray:
 
 ERRATA_001 = (
     Erratum(
-        "001-3", "001", "(3)", "rv-1a", "inverse", "A transform that should be inverted",
+        "001-3", "001", "(3)", "rv-1a", "inverse", tr_later("A transform that should be inverted"),
         (r"{}^{0}T_1\; {}^{0}T_6 = {}^{1}T_2 \cdots {}^{5}T_6",),
         (r"({}^{0}T_1)^{-1}\; {}^{0}T_6 = {}^{1}T_2 \cdots {}^{5}T_6",),
-        "To bring ⁰T1 to the other side of (2) it must be inverted. Shown: the left sides.",
+        tr_later("To bring ⁰T1 to the other side of (2) it must be inverted. Shown: the left sides."),
         _POSE, "transform", left_of_3, _right_of_3, columns=("n", "o", "a", "p"),
     ),
     Erratum(
-        "001-5", "001", "(5)", "rv-1a", "inverse", "The flange is not at the wrist's centre",
+        "001-5", "001", "(5)", "rv-1a", "inverse", tr_later("The flange is not at the wrist's centre"),
         (r"P_6 = P_5 = P_4",), (r"P_6 = P_4 + d_6\, a,\quad P_5 = P_4",),
-        "Only frames 4 and 5 share the point where the wrist's axes meet; frame 6 is d₆ = 179 mm further on.",
+        tr_later("Only frames 4 and 5 share the point where the wrist's axes meet; frame 6 is d₆ = 179 mm further on."),
         _POSE, "length", wrist_centre, place, rows=("x", "y", "z"),
         tool=lambda robot, q: at_place(robot, q, wrist_centre(robot, q)),
     ),

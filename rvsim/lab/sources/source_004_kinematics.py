@@ -10,6 +10,7 @@ from rvsim.kinematics import dh_transform, joint_transforms, link_transforms
 from rvsim.lab.sources import printed
 from rvsim.lab.sources.arms import at_place, degrees, dh_angles, flange, joint, place, planar, tool_with
 from rvsim.lab.sources.erratum import Erratum
+from rvsim.language import tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -136,37 +137,39 @@ def cosine_3_29(robot: Robot, q: FloatArray) -> float:
 
 _FRAMES = (
     Erratum(
-        "004-2.2", "004", "(2.2)", "al5b", "frames", "A sine of the wrong angle",
+        "004-2.2", "004", "(2.2)", "al5b", "frames", tr_later("A sine of the wrong angle"),
         (r"(2.2)_{24} = a_i \sin\alpha_i",), (r"(2.2)_{24} = a_i \sin\theta_i",),
-        "The link a is carried round by θ. Shown with θ₃, a₃ and a twist of 0.7 rad.",
+        tr_later("The link a is carried round by θ. Shown with θ₃, a₃ and a twist of 0.7 rad."),
         TEXT_POSE, "transform", link_2_2, _link, columns=_T_COLUMNS,
     ),
     Erratum(
-        "004-3.8", "004", "(3.8)", "al5b", "frames", "A third row that is the second axis",
+        "004-3.8", "004", "(3.8)", "al5b", "frames", tr_later("A third row that is the second axis"),
         (r"{}^{0}T_1 = \begin{bmatrix} c_1 & -s_1 & 0 & 0 \\ s_1 & c_1 & 0 & 0 \\ 0 & 1 & 0 & d_1 \\ 0 & 0 & 0 & 1 "
          r"\end{bmatrix}",),
         (r"{}^{0}T_1 = \begin{bmatrix} c_1 & -s_1 & 0 & 0 \\ s_1 & c_1 & 0 & 0 \\ 0 & 0 & 1 & d_1 \\ 0 & 0 & 0 & 1 "
          r"\end{bmatrix}",),
-        "The waist turns about z; as printed z is lost altogether, the determinant is 0.",
+        tr_later("The waist turns about z; as printed z is lost altogether, the determinant is 0."),
         TEXT_POSE, "transform", base_3_8, lambda robot, q: joint_transforms(robot, q)[0], columns=_T_COLUMNS,
     ),
     Erratum(
-        "004-3.12", "004", "(3.12)", "al5b", "frames", "A mirror in place of a rotation",
+        "004-3.12", "004", "(3.12)", "al5b", "frames", tr_later("A mirror in place of a rotation"),
         (r"{}^{4}T_5 = \begin{bmatrix} c_5 & -s_5 & 0 & 0 \\ 0 & 0 & 1 & d_5 \\ s_5 & c_5 & 0 & 0 \\ 0 & 0 & 0 & 1 "
          r"\end{bmatrix}",),
         (r"{}^{4}T_5 = \begin{bmatrix} c_5 & -s_5 & 0 & 0 \\ 0 & 0 & 1 & d_5 \\ -s_5 & -c_5 & 0 & 0 \\ 0 & 0 & 0 & 1 "
          r"\end{bmatrix}",),
-        "With α₄ = −90° the third row has minus signs; as printed the determinant is −1, a left-handed frame.",
+        tr_later("With α₄ = −90° the third row has minus signs; as printed the determinant is −1, a left-handed "
+                 "frame."),
         TEXT_POSE, "transform", roll_3_12, lambda robot, q: joint_transforms(robot, q)[4], columns=_T_COLUMNS,
     ),
     Erratum(
-        "004-3.13", "004", "(3.13)", "al5b", "frames", "The roll counted twice",
+        "004-3.13", "004", "(3.13)", "al5b", "frames", tr_later("The roll counted twice"),
         (r"T_{gripper} = R_z(\theta_5)",), (r"T_{gripper} = I",),
-        "The table's last row is all zeros: opening the gripper does not turn it, and θ₅ is in (3.12) already.",
+        tr_later("The table's last row is all zeros: opening the gripper does not turn it, and θ₅ is in (3.12) "
+                 "already."),
         TEXT_POSE, "transform", gripper_3_13, lambda _robot, _q: np.eye(4), columns=_T_COLUMNS,
     ),
     Erratum(
-        "004-3.15", "004", "(3.15) and (3.16)", "al5b", "frames", "Four signs of the rotation",
+        "004-3.15", "004", "(3.15) and (3.16)", "al5b", "frames", tr_later("Four signs of the rotation"),
         (
             r"n_x = c_1 c_{234} c_5 + s_1 s_5",
             r"n_y = s_1 c_{234} c_5 - c_1 s_5",
@@ -179,48 +182,49 @@ _FRAMES = (
             r"o_x = -c_1 c_{234} s_5 - s_1 c_5",
             r"o_y = -s_1 c_{234} s_5 + c_1 c_5",
         ),
-        "They follow from the printed (3.12): its mirror inverts every term with s₁ or c₁ alone. Moreover n_z is "
-        "labelled n_y once, and o_z is garbled.",
+        tr_later("They follow from the printed (3.12): its mirror inverts every term with s₁ or c₁ alone. Moreover "
+                 "n_z is "
+        "labelled n_y once, and o_z is garbled."),
         TEXT_POSE, "transform", orientation_3_15, flange, columns=_T_COLUMNS, tool=orientation_3_15,
     ),
 )  # fmt: skip
 
 _INVERSE = (
     Erratum(
-        "004-3.21", "004", "(3.21)", "al5b", "inverse", "A length that the table does not have",
+        "004-3.21", "004", "(3.21)", "al5b", "inverse", tr_later("A length that the table does not have"),
         (r"r_4 = r_d - a_5 \cos\psi,\quad z_4 = z_d - a_5 \sin\psi",),
         (r"r_4 = r_d - d_5 \cos\psi,\quad z_4 = z_d - d_5 \sin\psi",),
-        "The table's a of row 5 is 0; the hand's length is d₅.",
+        tr_later("The table's a of row 5 is 0; the hand's length is d₅."),
         TEXT_POSE, "length", wrist_3_21, _wrist, rows=("r₄", "z₄"),
     ),
     Erratum(
-        "004-3.22", "004", "(3.22)", "al5b", "inverse", "atan2 of a cosine's numerator and denominator",
+        "004-3.22", "004", "(3.22)", "al5b", "inverse", tr_later("atan2 of a cosine's numerator and denominator"),
         (r"\beta = \operatorname{atan2}(s^2 + a_3^2 - a_4^2,\, 2 a_3 s)",),
         (r"\beta = \arccos\frac{s^2 + a_3^2 - a_4^2}{2 a_3 s}",),
-        "The law of cosines gives the ratio as cos β; atan2 makes tan β of it.",
+        tr_later("The law of cosines gives the ratio as cos β; atan2 makes tan β of it."),
         TEXT_POSE, "angle", beta_3_22, _beta, rows=("β",), tool=tool_with(1, shoulder_3_23),
     ),
     Erratum(
-        "004-3.23", "004", "(3.23)", "al5b", "inverse", "The elbow by atan2 of a ratio too",
+        "004-3.23", "004", "(3.23)", "al5b", "inverse", tr_later("The elbow by atan2 of a ratio too"),
         (r"\theta_3 = \operatorname{atan2}(s^2 - a_3^2 - a_4^2,\, 2 a_3 a_4)",),
         (r"\theta_3 = \mp\arccos\frac{s^2 - a_3^2 - a_4^2}{2 a_3 a_4}",
          r"\theta_2 = \alpha \pm \beta",),
-        "The ratio is cos θ₃, and its sign belongs to the sign chosen for θ₂.",
+        tr_later("The ratio is cos θ₃, and its sign belongs to the sign chosen for θ₂."),
         TEXT_POSE, "angle", elbow_3_23, joint(2), rows=("θ₃",), tool=tool_with(2, elbow_3_23),
     ),
     Erratum(
-        "004-3.26", "004", "(3.26)", "al5b", "inverse", "A cosine in the height",
+        "004-3.26", "004", "(3.26)", "al5b", "inverse", tr_later("A cosine in the height"),
         (r"z = d_5 c_{234} + a_4 s_{23} + a_3 s_2 + d_1",), (r"z = d_5 s_{234} + a_4 s_{23} + a_3 s_2 + d_1",),
-        "Heights are sines; (3.28) has it right.",
+        tr_later("Heights are sines; (3.28) has it right."),
         TEXT_POSE, "length", height_3_26, lambda robot, q: place(robot, q)[2], rows=("z",), tool=_with_height,
     ),
     Erratum(
-        "004-3.29", "004", "(3.29)", "al5b", "inverse", "A root that is drawn too long",
+        "004-3.29", "004", "(3.29)", "al5b", "inverse", tr_later("A root that is drawn too long"),
         (r"c_3 = \frac{(z - d_5 s_\psi - d_1)^2 + (\pm\sqrt{x^2 + y^2 - d_5 c_\psi})^2 - a_3^2 - a_4^2}{2 a_3 a_4}",),
         (r"c_3 = \frac{(z - d_5 s_\psi - d_1)^2 + (\pm\sqrt{x^2 + y^2} - d_5 c_\psi)^2 - a_3^2 - a_4^2}{2 a_3 a_4}",),
-        "The root is x² + y² alone, as in (3.27); a length cannot be taken from an area.",
+        tr_later("The root is x² + y² alone, as in (3.27); a length cannot be taken from an area."),
         TEXT_POSE, "number", cosine_3_29, lambda _robot, q: math.cos(q[2]), rows=("cos θ₃",),
-        undefined="The printed formula has no value here: its root is not real.",
+        undefined=tr_later("The printed formula has no value here: its root is not real."),
     ),
 )  # fmt: skip
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 
 from rvsim.lab.sources import printed
 from rvsim.lab.worked.figures import Figures, wrapped
+from rvsim.language import tr
 
 Numbers = Mapping[str, float]
 Note = Callable[[Figures, Numbers], str]
@@ -26,9 +27,11 @@ def _waist_000(figures: Figures, k: Numbers) -> str:
     waist = _angle(figures, printed.waist_000(k["x"], k["y"]))
     if waist == _angle(figures, k["psi"]):
         return ""
-    return (
-        f"Source 000, (10), prints atan2(x, −y), its y counted the other way round: {waist}. "
-        f"In the sense of the DH table it is {_angle(figures, k['psi'])}."
+    return tr(
+        "Source 000, (10), prints atan2(x, −y), its y counted the other way round: {waist}. "
+        "In the sense of the DH table it is {angle}.",
+        waist=waist,
+        angle=_angle(figures, k["psi"]),
     )
 
 
@@ -38,33 +41,47 @@ def _links_000(figures: Figures, k: Numbers) -> str:
     gamma = printed.gamma_000(triangle)
     second, third = printed.shoulder_000(triangle, k["q2"], gamma), printed.elbow_000(triangle, k["q2"])
     return (
-        f"Source 000, (14), prints γ = {figures.text(gamma, 'length')}; "
-        f"right is {figures.text(printed.gamma(triangle), 'length')}: α² + β² is added. "
+        tr(
+            "Source 000, (14), prints γ = {text}; right is {text2}: α² + β² is added. ",
+            text=figures.text(gamma, "length"),
+            text2=figures.text(printed.gamma(triangle), "length"),
+        )
         + _shoulder_000(figures, second, k["q2"])
-        + f"(15) has atan2's arguments exchanged: {_angle(figures, third)}, not {_angle(figures, k['q3'])}."
+        + tr(
+            "(15) has atan2's arguments exchanged: {angle}, not {angle2}.",
+            angle=_angle(figures, third),
+            angle2=_angle(figures, k["q3"]),
+        )
     )
 
 
 def _shoulder_000(figures: Figures, printed_q2: float, q2: float) -> str:
     if math.isnan(printed_q2):
-        return "With it the root is not real. "
-    return f"With its atan2(α, β) θ₂ would be {_angle(figures, printed_q2)}, not {_angle(figures, q2)}. "
+        return tr("With it the root is not real. ")
+    return tr(
+        "With its atan2(α, β) θ₂ would be {angle}, not {angle2}. ",
+        angle=_angle(figures, printed_q2),
+        angle2=_angle(figures, q2),
+    )
 
 
 def _pitch_000(figures: Figures, k: Numbers) -> str:
     fourth = k["phi"] - k["q2"] - k["q3"]
     wrist, right = _angle(figures, fourth), _angle(figures, fourth + 0.5 * math.pi)
-    return (
+    return tr(
         "Source 000, (16) and (17), call the sum φ but mean the DH angle, which is the joint's plus "
-        f"{'90°' if figures.in_degrees else 'π/2'}: with the pitch as φ it would "
-        f"give {wrist} where the DH angle is {right}."
+        "{value}: with the pitch as φ it would "
+        "give {wrist} where the DH angle is {right}.",
+        value="90°" if figures.in_degrees else "π/2",
+        wrist=wrist,
+        right=right,
     )
 
 
 def _centre_001(figures: Figures, k: Numbers) -> str:
-    return (
-        "Source 001, (5), prints P6 = P5 = P4. Only P5 = P4 holds; P6 is "
-        f"{figures.text(k['d6'], 'length')} away from them."
+    return tr(
+        "Source 001, (5), prints P6 = P5 = P4. Only P5 = P4 holds; P6 is {text} away from them.",
+        text=figures.text(k["d6"], "length"),
     )
 
 
@@ -72,12 +89,18 @@ def _wrist_004(figures: Figures, k: Numbers) -> str:
     c, s = math.cos(k["phi"]), math.sin(k["phi"])
     height = printed.wrist_height_004(k["z"], k["d1"], k["d5"], k["phi"])
     text = figures.text
-    note = (
-        f"Source 004, (3.26), prints d₅ cos ψ where d₅ sin ψ belongs (its ψ is our φ): the height would be "
-        f"{text(height, 'length')}, not {text(k['z'] - k['d1'] - k['d5'] * s, 'length')}."
+    note = tr(
+        "Source 004, (3.26), prints d₅ cos ψ where d₅ sin ψ belongs (its ψ is our φ): the height would be "
+        "{text}, not {text2}.",
+        text=text(height, "length"),
+        text2=text(k["z"] - k["d1"] - k["d5"] * s, "length"),
     )
-    negative = " (here negative)" if k["rho"] ** 2 < k["d5"] * c else ""
-    return f"{note} (3.29) draws the root over x² + y² − d₅ cos ψ{negative}; it ends before − d₅ cos ψ."
+    negative = tr(" (here negative)") if k["rho"] ** 2 < k["d5"] * c else ""
+    return tr(
+        "{note} (3.29) draws the root over x² + y² − d₅ cos ψ{negative}; it ends before − d₅ cos ψ.",
+        note=note,
+        negative=negative,
+    )
 
 
 def _links_004(figures: Figures, k: Numbers) -> str:
@@ -86,11 +109,15 @@ def _links_004(figures: Figures, k: Numbers) -> str:
     ratio = (square + upper * upper - fore * fore) / (2.0 * upper * math.sqrt(square))
     beta = math.acos(max(-1.0, min(1.0, ratio)))
     third = printed.elbow_004(square, upper, fore)
-    return (
-        f"Source 004, (3.22), prints β = atan2(s² + a₃² − a₄², 2a₃s) = "
-        f"{_angle(figures, printed.beta_004(square, upper, fore))}; right is the arccos of their ratio, "
-        f"{_angle(figures, beta)}. (3.23) in the same way prints θ₃ = {_angle(figures, third)}, "
-        f"not {_angle(figures, k['q3'])}."
+    return tr(
+        "Source 004, (3.22), prints β = atan2(s² + a₃² − a₄², 2a₃s) = "
+        "{angle}; right is the arccos of their ratio, "
+        "{angle2}. (3.23) in the same way prints θ₃ = {angle3}, "
+        "not {angle4}.",
+        angle=_angle(figures, printed.beta_004(square, upper, fore)),
+        angle2=_angle(figures, beta),
+        angle3=_angle(figures, third),
+        angle4=_angle(figures, k["q3"]),
     )
 
 
@@ -98,9 +125,11 @@ def _waist_003(figures: Figures, k: Numbers) -> str:
     waist = printed.waist_003(k["px"], k["py"])
     if math.isnan(waist) or _angle(figures, waist) == _angle(figures, k["psi"]):
         return ""
-    return (
-        f"Source 003 prints θ₁ = arctan(Py/Px) = {_angle(figures, waist)}; it must be atan2(Py−l₂, Px−l₁) = "
-        f"{_angle(figures, k['psi'])}, as its program has it."
+    return tr(
+        "Source 003 prints θ₁ = arctan(Py/Px) = {angle}; it must be atan2(Py−l₂, Px−l₁) = "
+        "{angle2}, as its program has it.",
+        angle=_angle(figures, waist),
+        angle2=_angle(figures, k["psi"]),
     )
 
 
@@ -109,18 +138,19 @@ def _roll_003(figures: Figures, k: Numbers) -> str:
     roll = _angle(figures, printed.roll_003(k["q1"], printed.Hand(k["nx"], k["ny"], k["ox"], k["oy"])))
     if roll == _angle(figures, k["q3"]):
         return ""
-    return (
-        f"Source 003's program takes cosd and sind of a θ₁ in radians: its θ₃ would be {roll}, "
-        f"not {_angle(figures, k['q3'])}."
+    return tr(
+        "Source 003's program takes cosd and sind of a θ₁ in radians: its θ₃ would be {roll}, not {angle}.",
+        roll=roll,
+        angle=_angle(figures, k["q3"]),
     )
 
 
 def _extension_003(figures: Figures, k: Numbers) -> str:
     extension = printed.extension_003(k["w"], k["q2"], k["a2"], k["d3"])
     if math.isnan(extension):
-        return "Source 003 divides by C₂, which is 0 here; along the tool axis nothing is divided."
+        return tr("Source 003 divides by C₂, which is 0 here; along the tool axis nothing is divided.")
     value = figures.text(extension, "length")
-    return f"Source 003 prints l₆ = (w − l₅S₂)/C₂ − l₇ = {value}: right as long as C₂ is not 0."
+    return tr("Source 003 prints l₆ = (w − l₅S₂)/C₂ − l₇ = {value}: right as long as C₂ is not 0.", value=value)
 
 
 _NOTES: dict[tuple[str, str], Note] = {

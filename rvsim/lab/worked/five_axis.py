@@ -12,6 +12,7 @@ from rvsim.lab.worked.links import Fold, Links, elbow_names, fold_equations, sum
 from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.target import column, place, write_target
 from rvsim.lab.worked.waist import Side
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
 
@@ -41,26 +42,28 @@ def write_plane(book: Notebook, S: FloatArray, names: tuple[str, str] = ("front"
         lean = math.asin(min(1.0, abs(across)))
         failure = _LEANS.format(lean=book.figures.text(lean, "angle"))
         if abs(across) <= FEASIBLE:
-            failure = "No solution: the tip lies beside the vertical plane of the tool axis."
-        book.step((), "Waist", text, *equations, failure=failure)
+            failure = tr("No solution: the tip lies beside the vertical plane of the tool axis.")
+        book.step((), tr("Waist"), text, *equations, failure=failure)
         return ()
     px, py = (float(v) for v in (book.rows.T_base_0 @ S)[:2, 3])
     erratum = {"x": x.value, "y": y.value, "psi": psi.value, "px": px, "py": py}
-    book.step((), "Waist: two ways", text, *equations, choices=names, erratum=("waist", erratum))
+    book.step((), tr("Waist: two ways"), text, *equations, choices=names, erratum=("waist", erratum))
     r = x.value * dx + y.value * dy
     return Side(names[:1], 0, psi.value, r), Side(names[1:], 1, psi.value + math.pi, -r)
 
 
-_LEANS = (
+_LEANS = tr_later(
     "No solution: the tool axis leans {lean} out of the vertical plane through the base axis and the tip. "
     "This arm cannot turn it sideways."
 )
-_WAIST = (
+_WAIST = tr_later(
     "The tool axis a must lie in the vertical plane through the base axis and the tip: a⊥, its part across it, "
     "must be 0. The arm faces the tip, or is turned away from it."
 )
-_BY_TOOL = "The tip is on the base axis (x = y = 0), so the tool axis tells the plane; the arm may face either way."
-_ANY = (
+_BY_TOOL = tr_later(
+    "The tip is on the base axis (x = y = 0), so the tool axis tells the plane; the arm may face either way."
+)
+_ANY = tr_later(
     "The tip is on the base axis and the tool axis is vertical: any q₁ will do, and q₅ turns against it. "
     "Here {} is taken."
 )
@@ -92,10 +95,11 @@ def _azimuth(
 
 def _write_side(book: Notebook, S: FloatArray, side: Side) -> None:
     r, phi, equations = plane_coordinates(book, S, side)
-    text = (
-        f"{'Facing it' if side.turned == 0 else 'Turned away'}: how far out the tip is, and the pitch of the tool axis."
+    text = tr(
+        "{value}: how far out the tip is, and the pitch of the tool axis.",
+        value=tr("Facing it") if side.turned == 0 else tr("Turned away"),
     )
-    book.step(side.path, "Into the arm's plane", text, *equations)
+    book.step(side.path, tr("Into the arm's plane"), text, *equations)
     u, w = _write_wrist(book, S, side, r, phi)
     links = Links(1, book.a(1), book.a(2))
     for fold in write_links(book, side.path, u, w, links, elbow_names(book, side.turned, links)):
@@ -149,8 +153,8 @@ def _write_wrist(book: Notebook, S: FloatArray, side: Side, r: Quantity, phi: Qu
     }
     book.step(
         side.path,
-        "Back to the wrist",
-        "From the tip along the tool axis to the wrist, seen from the shoulder: u outwards, w upwards.",
+        tr("Back to the wrist"),
+        tr("From the tip along the tool axis to the wrist, seen from the shoulder: u outwards, w upwards."),
         book.figures.equation(u, out, **named),
         book.figures.equation(w, high, **named),
         erratum=("wrist", erratum),
@@ -171,20 +175,20 @@ def _write_fold(
     a2, a3 = links.first.value, links.second.value
     numbers = {"u": u.value, "w": w.value, "a2": a2, "a3": a3, "q2": fold.theta, "q3": fold.next_theta}
     elbow = fold_equations(book, fold, u, w, links)
-    book.step(fold.path, "Elbow and shoulder", _FOLD, *elbow, erratum=("links", numbers))
+    book.step(fold.path, tr("Elbow and shoulder"), _FOLD, *elbow, erratum=("links", numbers))
     constant = 0.5 * math.pi * float(book.rows.turn[3])
     pitch = sum_equations(book, phi, (theta2, theta3), 3, constant)
     numbers |= {"phi": phi.value}
-    book.step(fold.path, "Wrist pitch", _PITCH, *pitch, erratum=("pitch", numbers))
+    book.step(fold.path, tr("Wrist pitch"), _PITCH, *pitch, erratum=("pitch", numbers))
     theta5, roll = roll_equations(book, S, side, 4, float(book.rows.turn[3] * book.rows.turn[0]))
-    book.step(fold.path, "Roll", _ROLL, *roll)
+    book.step(fold.path, tr("Roll"), _ROLL, *roll)
     theta4 = phi.value + constant - fold.theta - fold.next_theta
     book.solved(fold.path, side.theta1, fold.theta, fold.next_theta, theta4, theta5)
 
 
-_FOLD = "With this sign; the first link points past the wrist by the angle β at the shoulder."
-_PITCH = "The three parallel axes add up to the pitch."
-_ROLL = "The rest of the rotation: n and o, seen along the normal of the plane."
+_FOLD = tr_later("With this sign; the first link points past the wrist by the angle β at the shoulder.")
+_PITCH = tr_later("The three parallel axes add up to the pitch.")
+_ROLL = tr_later("The rest of the rotation: n and o, seen along the normal of the plane.")
 
 
 def roll_equations(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rvsim.lab.worked.values import Equation, Path, Step, WorkedBranch, WorkedSolution
+from rvsim.language import tr
 
 _HEAD = """\\documentclass{article}
 \\usepackage{amsmath}
@@ -64,4 +65,4 @@ def _table(branches: tuple[WorkedBranch, ...]) -> str:
 def _verdict(branch: WorkedBranch) -> str:
     if branch.q is None:
         return branch.reason
-    return "within the limits" if branch.within_limits else f"outside the limits: {branch.reason}"
+    return tr("within the limits") if branch.within_limits else tr("outside the limits: {reason}", reason=branch.reason)

@@ -13,6 +13,7 @@ from rvsim.kinematics.inverse.words import ELBOW
 from rvsim.lab.worked.figures import Quantity, wrapped
 from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.values import Path
+from rvsim.language import tr, tr_later
 
 _STRAIGHT = 1e-7  # [rad]
 _LAW = "\\frac{<u>^2+<w>^2-<a2>^2-<a3>^2}{2*<a2>*<a3>}"
@@ -49,13 +50,13 @@ def write_links(book: Notebook, path: Path, u: Quantity, w: Quantity, links: Lin
     law = Quantity(f"C = \\cos {_bent(book, links)}", cosine, "number")
     equation = book.figures.equation(law, _LAW, u=u, w=w, a2=a2, a3=a3)
     if elbow.missing[0]:
-        book.step(path, "Elbow", _TRIANGLE, equation, failure=_out_of_ring(book, math.sqrt(square), a2, a3, cosine))
+        book.step(path, tr("Elbow"), _TRIANGLE, equation, failure=_out_of_ring(book, math.sqrt(square), a2, a3, cosine))
         return ()
     bend = float(elbow.bend[0])
     straight = min(bend, math.pi - bend) < _STRAIGHT
     order = sorted(names, key=lambda sign: (names[sign] == ELBOW[1], -sign))
     text = _TRIANGLE + (_ONE_POSE if straight else _EITHER)
-    book.step(path, "Elbow: two signs", text, equation, choices=tuple(names[sign] for sign in order))
+    book.step(path, tr("Elbow: two signs"), text, equation, choices=tuple(names[sign] for sign in order))
     leaning = lift.value if lift else 0.0
     direction, lean = float(elbow.direction[0]), float(elbow.lean[0])
     return tuple(
@@ -96,7 +97,7 @@ def sum_equations(
     rows = book.rows
     theta = total.value + constant - sum(part.value for part in parts)
     others = "".join(f"-<part{k}>" for k in range(len(parts)))
-    named = {f"part{k}": part for k, part in enumerate(parts)} | {"total": total}
+    named = {tr("part{k}", k=k): part for k, part in enumerate(parts)} | {"total": total}
     rest = math.remainder(constant - float(rows.offset[last]), 2.0 * math.pi)
     if rows.sign[last] > 0.0 and abs(rest) < 1e-9:
         q = Quantity(f"q_{last + 1}", total.value - sum(part.value for part in parts), "angle")
@@ -105,9 +106,9 @@ def sum_equations(
     return book.joint(last, theta, "<total,>" + extra + others, **named)
 
 
-_TRIANGLE = "The law of cosines in the triangle of the two links. "
-_EITHER = "The angle itself may have either sign: the elbow bends to one side or to the other."
-_ONE_POSE = "The elbow is straight here (or folded back): both signs give the same pose."
+_TRIANGLE = tr_later("The law of cosines in the triangle of the two links. ")
+_EITHER = tr_later("The angle itself may have either sign: the elbow bends to one side or to the other.")
+_ONE_POSE = tr_later("The elbow is straight here (or folded back): both signs give the same pose.")
 
 
 def _bent(book: Notebook, links: Links) -> str:
@@ -120,9 +121,14 @@ def _out_of_ring(book: Notebook, away: float, a2: Quantity, a3: Quantity, cosine
     farthest, nearest = abs(a2.value) + abs(a3.value), abs(abs(a2.value) - abs(a3.value))
     size = "above 1" if cosine > 0.0 else "below \u22121"
     where = (
-        f"outside the ring that the links reach, which ends at {text(farthest, 'length')}"
+        tr("outside the ring that the links reach, which ends at {text}", text=text(farthest, "length"))
         if away > farthest
-        else f"inside the hole that the links leave, which has a radius of {text(nearest, 'length')}"
+        else tr("inside the hole that the links leave, which has a radius of {text}", text=text(nearest, "length"))
     )
     by = away - farthest if away > farthest else nearest - away
-    return f"No solution: a cosine cannot be {size}. The point lies {text(by, 'length')} {where}."
+    return tr(
+        "No solution: a cosine cannot be {size}. The point lies {text} {where}.",
+        size=size,
+        text=text(by, "length"),
+        where=where,
+    )

@@ -13,23 +13,28 @@ from rvsim.lab.worked.spherical_wrist import write_centre
 from rvsim.lab.worked.target import column, write_target
 from rvsim.lab.worked.values import Path
 from rvsim.lab.worked.waist import Side, plane_equations, side_equations, write_waist
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
-_SHOULDERS = ("left shoulder", "right shoulder")
-_CENTRE = "From the flange back along its axis a by d₆ to axis 5, which stands at d₄ beside the plane of the arm."
-_PLANE = "Axis 5 seen from the shoulder, in the plane of the arm: u outwards, w upwards."
-_NORMAL = (
+_SHOULDERS = (tr_later("left shoulder"), tr_later("right shoulder"))
+_CENTRE = tr_later(
+    "From the flange back along its axis a by d₆ to axis 5, which stands at d₄ beside the plane of the arm."
+)
+_PLANE = tr_later("Axis 5 seen from the shoulder, in the plane of the arm: u outwards, w upwards.")
+_NORMAL = tr_later(
     "The flange's axes seen along the normal of the arm's plane are (s₅c₆, −s₅s₆, c₅): "
     "they tell cos θ₅, and sin θ₅ up to its sign."
 )
-_FREE = (
+_FREE = tr_later(
     "The flange's axis 6 is parallel to axes 2, 3 and 4 (sin θ₅ = 0): any q₆ will do, and the others make up for it. "
     "One value is taken on each branch."
 )
-_AXIS4 = "With this sign: the wrist angles, then axis z₄, which gives the sum of the three parallel axes' angles."
-_END = "From axis 5 back along z₄ by d₅: the end of the two links."
-_FOLD = "With this sign; the first link points past the end point by the angle β at the shoulder."
-_LAST = "The three parallel axes add up to the angle found above."
+_AXIS4 = tr_later(
+    "With this sign: the wrist angles, then axis z₄, which gives the sum of the three parallel axes' angles."
+)
+_END = tr_later("From axis 5 back along z₄ by d₅: the end of the two links.")
+_FOLD = tr_later("With this sign; the first link points past the end point by the angle β at the shoulder.")
+_LAST = tr_later("The three parallel axes add up to the angle found above.")
 
 
 def solve_parallel_axes(book: Notebook, T: FloatArray) -> None:
@@ -39,10 +44,10 @@ def solve_parallel_axes(book: Notebook, T: FloatArray) -> None:
     write_target(book, S)
     x, y, z = write_centre(book, S, text=_CENTRE)
     offset = Quantity(_offset_symbol(book), float(rows.turn[0] * rows.d[1:4].sum()))
-    waist = write_waist(book, (x, y), "wrist (axis 5)", offset, _SHOULDERS)
+    waist = write_waist(book, (x, y), tr("wrist (axis 5)"), offset, _SHOULDERS)
     for side in waist.sides:
         u, w, in_plane = plane_equations(book, waist, side, z)
-        book.step(side.path, "Into the arm's plane", _PLANE, *side_equations(book, waist, side), *in_plane)
+        book.step(side.path, tr("Into the arm's plane"), _PLANE, *side_equations(book, waist, side), *in_plane)
         _write_wrists(book, S, side, u, w)
 
 
@@ -65,7 +70,7 @@ def _write_wrists(book: Notebook, S: FloatArray, side: Side, u: Quantity, w: Qua
     order = sorted((1.0, -1.0), key=lambda sign: names[int(sign < 0.0)] == WRIST[1])
     choices = tuple(names[int(sign < 0.0)] for sign in order)
     free = sine < UNCERTAIN
-    book.step(side.path, "Wrist: two signs", _FREE if free else _NORMAL, *equations, choices=choices)
+    book.step(side.path, tr("Wrist: two signs"), _FREE if free else _NORMAL, *equations, choices=choices)
     for sign, name in zip(order, choices, strict=True):
         path = (*side.path, name)
         taken = book.taken(path, 5) if free else None
@@ -85,13 +90,13 @@ def _write_arm(
     """Wrist angles, the links' end, both elbows: with one sign of sin θ5."""
     theta5, theta6, wrist = _wrist_angles(book, across, sign, taken)
     z4, total, axis = _axis_4(book, S, side, theta6)
-    book.step(path, "Wrist angles", _AXIS4, *wrist, *axis)
+    book.step(path, tr("Wrist angles"), _AXIS4, *wrist, *axis)
     u, w, end = _links_end(book, centre, z4, total)
-    book.step(path, "The end of the two links", _END, *end)
+    book.step(path, tr("The end of the two links"), _END, *end)
     links = Links(1, book.a(1), book.a(2))
     for fold in write_links(book, path, u, w, links, elbow_names(book, side.turned, links)):
-        book.step(fold.path, "Elbow and shoulder", _FOLD, *fold_equations(book, fold, u, w, links))
-        book.step(fold.path, "Wrist 1", _LAST, *_last(book, fold, total))
+        book.step(fold.path, tr("Elbow and shoulder"), _FOLD, *fold_equations(book, fold, u, w, links))
+        book.step(fold.path, tr("Wrist 1"), _LAST, *_last(book, fold, total))
         theta4 = total.value - fold.theta - fold.next_theta
         book.solved(fold.path, side.theta1, fold.theta, fold.next_theta, theta4, theta5, theta6)
 

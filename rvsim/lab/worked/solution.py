@@ -36,6 +36,7 @@ from rvsim.lab.worked.textbook import (
     solve_spherical,
 )
 from rvsim.lab.worked.values import WorkedBranch, WorkedSolution
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray, floats
 
@@ -52,7 +53,7 @@ _WRITERS: dict[type[ClosedForm], Writer] = {
     Cylindrical: solve_cylindrical,
     Cartesian: solve_cartesian,
 }
-_UNCONFIRMED = (
+_UNCONFIRMED = tr_later(
     "No solution: so close to a singular pose rounding is too large, and forward kinematics does not confirm it."
 )
 _DEFAULT = Units()
@@ -111,5 +112,12 @@ def _broken_limits(figures: Figures, robot: Robot, branch: Branch) -> str:
         if margin < -LIMIT_TOLERANCE:
             kind: Kind = "angle" if joint.revolute else "length"
             stop = joint.lower if value < joint.lower else joint.upper
-            broken.append(f"{joint.name} needs {text(value, kind)}, stops at {text(stop, kind)}")
+            broken.append(
+                tr(
+                    "{name} needs {text}, stops at {text2}",
+                    name=joint.name,
+                    text=text(value, kind),
+                    text2=text(stop, kind),
+                )
+            )
     return "; ".join(broken)

@@ -13,6 +13,7 @@ from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.target import column, place, write_target
 from rvsim.lab.worked.values import Equation
 from rvsim.lab.worked.waist import Side, plane_equations, side_equations, write_waist
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
 _SINGULAR = 5e-10  # sin θ5: below it axes 4 and 6 are one
@@ -28,21 +29,21 @@ def solve_spherical_wrist(book: Notebook, T: FloatArray) -> None:
     x, y, z = write_centre(book, S, *equations)
     offset = Quantity("d", float(rows.turn[0] * (rows.d[1] + rows.d[2])))
     links = Links(1, book.a(1), forearm, lift)
-    waist = write_waist(book, (x, y), "wrist centre", offset)
+    waist = write_waist(book, (x, y), tr("wrist centre"), offset)
     for side in waist.sides:
         u, w, in_plane = plane_equations(book, waist, side, z)
-        book.step(side.path, "Into the arm's plane", _PLANE, *side_equations(book, waist, side), *in_plane)
+        book.step(side.path, tr("Into the arm's plane"), _PLANE, *side_equations(book, waist, side), *in_plane)
         for fold in write_links(book, side.path, u, w, links, elbow_names(book, side.turned, links)):
-            book.step(fold.path, "Elbow and shoulder", _FOLD, *fold_equations(book, fold, u, w, links))
+            book.step(fold.path, tr("Elbow and shoulder"), _FOLD, *fold_equations(book, fold, u, w, links))
             _write_wrist(book, S, side, fold)
 
 
-_CENTRE = (
+_CENTRE = tr_later(
     "Axes 4, 5 and 6 meet in the wrist centre, which the last three joints do not move. From the tool back along "
     "its axis a to that point."
 )
-_PLANE = "The wrist centre seen from the shoulder, in the plane of the arm: u along x₁, w along y₁."
-_FOLD = "With this sign; the first link points past the wrist centre by the angle β at the shoulder."
+_PLANE = tr_later("The wrist centre seen from the shoulder, in the plane of the arm: u along x₁, w along y₁.")
+_FOLD = tr_later("With this sign; the first link points past the wrist centre by the angle β at the shoulder.")
 
 
 def write_centre(
@@ -55,7 +56,7 @@ def write_centre(
         centre = c._replace(value=p.value - d6.value * a.value)
         found.append(centre)
         written.append(book.figures.equation(centre, "<p,>-<d6>*<a>", p=p, a=a, d6=d6))
-    book.step((), "Wrist centre", text, *written, *equations, erratum=("centre", {"d6": d6.value}))
+    book.step((), tr("Wrist centre"), text, *written, *equations, erratum=("centre", {"d6": d6.value}))
     return found[0], found[1], found[2]
 
 
@@ -92,24 +93,24 @@ def _write_wrist(book: Notebook, S: FloatArray, side: Side, fold: Fold) -> None:
     order = sorted((1.0, -1.0), key=lambda sign: names[int(sign < 0.0)] == WRIST[1])
     choices = tuple(names[int(sign < 0.0)] for sign in order)
     text = _FREE if free else _WRIST
-    book.step(fold.path, "Wrist: two signs", text, matrix, length, choices=choices)
+    book.step(fold.path, tr("Wrist: two signs"), text, matrix, length, choices=choices)
     for sign, name in zip(order, choices, strict=True):
         path = (*fold.path, name)
         angles, equations = _wrist_equations(book, R, sign, book.taken(path, 3) if free else None)
-        book.step(path, "Wrist angles", _ANGLES_FREE if free else _ANGLES, *equations)
+        book.step(path, tr("Wrist angles"), _ANGLES_FREE if free else _ANGLES, *equations)
         book.solved(path, side.theta1, fold.theta, fold.next_theta, *angles)
 
 
-_WRIST = (
+_WRIST = tr_later(
     "What is left of the rotation is the wrist's alone, a rotation about three axes as with Euler's ZYZ angles. "
     "Its last column tells sin θ₅ up to the sign."
 )
-_FREE = (
+_FREE = tr_later(
     "Axes 4 and 6 are one line here (sin θ₅ = 0): only the sum or difference of their angles counts, "
     "and any q₄ will do."
 )
-_ANGLES = "With this sign of sin θ₅; θ₆ follows without a division, so it holds near the singularity too."
-_ANGLES_FREE = "One of infinitely many: q₄ is taken, q₆ follows from it."
+_ANGLES = tr_later("With this sign of sin θ₅; θ₆ follows without a division, so it holds near the singularity too.")
+_ANGLES_FREE = tr_later("One of infinitely many: q₄ is taken, q₆ follows from it.")
 
 
 def _R_0_3(book: Notebook, theta1: float, bend: float) -> FloatArray:

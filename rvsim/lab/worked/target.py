@@ -6,6 +6,7 @@ import numpy as np
 
 from rvsim.lab.worked.figures import Kind, Quantity
 from rvsim.lab.worked.notebook import Notebook
+from rvsim.language import tr
 from rvsim.spatial.arrays import FloatArray
 
 _COLUMNS: tuple[Kind, ...] = ("number", "number", "number", "length")
@@ -17,13 +18,17 @@ def write_target(book: Notebook, S: FloatArray, *, flange: bool = True, base: bo
     rows, n = book.rows, book.rows.robot.dof
     off = [name for name, T in (("base", rows.T_base_0), ("tool", rows.T_n_tool)) if not _is_identity(T)]
     off = [name for name in off if not (name == "tool" and not flange) and not (name == "base" and base)]
-    what, frame = f"frame {n}" if flange else "the tool", "the base frame" if base else "frame 0"
-    text = f"The wanted pose of {what} in {frame}, with its columns n, o, a and p."
+    what, frame = tr("frame {n}", n=n) if flange else tr("the tool"), tr("the base frame") if base else "frame 0"
+    text = tr("The wanted pose of {what} in {frame}, with its columns n, o, a and p.", what=what, frame=frame)
     if off:
-        text += f" The arm's {' and '.join(off)} transform{'s are' if len(off) > 1 else ' is'} taken off first."
+        text += tr(
+            " The arm's {off} transform{value} taken off first.",
+            off=" and ".join(off),
+            value="s are" if len(off) > 1 else " is",
+        )
     name = f"{{}}^{'b' if base else '0'}T_{n if flange else 't'}"
     formula = "\\begin{bmatrix} n & o & a & p \\end{bmatrix}"
-    book.step((), "The target", text, book.figures.matrix(name, formula, S[:3], _COLUMNS))
+    book.step((), tr("The target"), text, book.figures.matrix(name, formula, S[:3], _COLUMNS))
 
 
 def place(S: FloatArray, mark: str = "") -> tuple[Quantity, Quantity, Quantity]:

@@ -16,10 +16,11 @@ from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.target import place, write_target
 from rvsim.lab.worked.values import Path
 from rvsim.lab.worked.waist import Side, Waist, plane_equations, side_equations, write_waist
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
-_PLANE = "The tool seen from the shoulder, in the plane of the arm: u along x₁, w along y₁."
-_FOLD = "With this sign; the first link points past the tool by the angle β."
+_PLANE = tr_later("The tool seen from the shoulder, in the plane of the arm: u along x₁, w along y₁.")
+_FOLD = tr_later("With this sign; the first link points past the tool by the angle β.")
 
 
 def _last_link(book: Notebook, i: int) -> tuple[Quantity, Quantity | None, Equations]:
@@ -47,10 +48,10 @@ def solve_planar(book: Notebook, T: FloatArray) -> None:
     length, lift, equations = _last_link(book, 1)
     links = Links(0, book.a(0), length, lift)
     if equations:
-        book.step((), "The second link", "From axis 2 to the tool's tip.", *equations)
+        book.step((), tr("The second link"), tr("From axis 2 to the tool's tip."), *equations)
     up = -math.copysign(1.0, links.first.value)
     for fold in write_links(book, (), x, y, links, {up: ELBOW[0], -up: ELBOW[1]}):
-        book.step(fold.path, "Both angles", _FOLD, *fold_equations(book, fold, x, y, links))
+        book.step(fold.path, tr("Both angles"), _FOLD, *fold_equations(book, fold, x, y, links))
         book.solved(fold.path, fold.theta, fold.next_theta)
 
 
@@ -65,29 +66,31 @@ def solve_articulated(book: Notebook, T: FloatArray) -> None:
     x, y, z = place(S)
     length, lift, equations = _last_link(book, 2)
     if equations:
-        book.step((), "The forearm", "From axis 3 to the tool's tip.", *equations)
+        book.step((), tr("The forearm"), tr("From axis 3 to the tool's tip."), *equations)
     offset = float(rows.turn[0]) * float(rows.d[1] + rows.d[2] + rows.T_n_tool[2, 3])
     links = Links(1, book.a(1), length, lift)
     waist = write_waist(book, (x, y), "tool", Quantity("d", 0.0 if abs(offset) <= 1e-9 else offset))
     for side in waist.sides:
         u, w = _into_plane(book, waist, side, z)
         for fold in write_links(book, side.path, u, w, links, elbow_names(book, side.turned, links)):
-            book.step(fold.path, "Elbow and shoulder", _FOLD, *fold_equations(book, fold, u, w, links))
+            book.step(fold.path, tr("Elbow and shoulder"), _FOLD, *fold_equations(book, fold, u, w, links))
             book.solved(fold.path, side.theta1, fold.theta, fold.next_theta)
 
 
 def _into_plane(book: Notebook, waist: Waist, side: Side, z: Quantity) -> tuple[Quantity, Quantity]:
     u, w, equations = plane_equations(book, waist, side, z)
-    book.step(side.path, "Into the arm's plane", _PLANE, *side_equations(book, waist, side), *equations)
+    book.step(side.path, tr("Into the arm's plane"), _PLANE, *side_equations(book, waist, side), *equations)
     return u, w
 
 
 # --- spherical -------------------------------------------------------------------------------------------------------
 
-_AHEAD = ("extended ahead", "extended behind")
-_PYTHAGORAS = "The squared distance from the shoulder, less the part across the sliding axis, is the square of L."
-_ANY_SHOULDER = "The tool is at the shoulder: any q₂ will do. Here {} is taken."
-_SLIDE = "With this sign of L; what lies beyond the tool's own length is the joint's."
+_AHEAD = (tr_later("extended ahead"), tr_later("extended behind"))
+_PYTHAGORAS = tr_later(
+    "The squared distance from the shoulder, less the part across the sliding axis, is the square of L."
+)
+_ANY_SHOULDER = tr_later("The tool is at the shoulder: any q₂ will do. Here {} is taken.")
+_SLIDE = tr_later("With this sign of L; what lies beyond the tool's own length is the joint's.")
 
 
 def solve_spherical(book: Notebook, T: FloatArray) -> None:
@@ -115,11 +118,11 @@ def _write_slides(book: Notebook, side: Side, point: tuple[Quantity, Quantity], 
     equation = book.figures.equation(size, template, u=u, w=w, b=across)
     if square < -2.0 * COSINE_TOLERANCE * across.value**2:
         away = book.figures.text(abs(across.value) - math.hypot(u.value, w.value), "length")
-        failure = f"No solution: the root is not real, the tool is {away} too near to the shoulder."
+        failure = tr("No solution: the root is not real, the tool is {away} too near to the shoulder.", away=away)
         left = equation._replace(result="", value=0.0)
-        book.step(side.path, "Extension", _PYTHAGORAS, left, failure=failure)
+        book.step(side.path, tr("Extension"), _PYTHAGORAS, left, failure=failure)
         return
-    book.step(side.path, "Extension: two signs", _PYTHAGORAS, equation, choices=_AHEAD)
+    book.step(side.path, tr("Extension: two signs"), _PYTHAGORAS, equation, choices=_AHEAD)
     for sign, name in zip((1.0, -1.0), _AHEAD, strict=True):
         _write_slide(book, side, (*side.path, name), (u, w), across, sign * size.value, tip)
 
@@ -144,7 +147,7 @@ def _write_slide(
     theta2 = alpha.value + beta.value
     book.step(
         path,
-        "Shoulder and slide",
+        tr("Shoulder and slide"),
         _SLIDE,
         book.figures.equation(alpha, "\\operatorname{atan2}(<w,>,\\,<u,>)", u=u, w=w),
         book.figures.equation(beta, lean, L=L, b=across),
@@ -157,16 +160,18 @@ def _write_slide(
 def _write_free_shoulder(book: Notebook, side: Side, path: Path, stroke: float) -> None:
     theta2 = book.taken(path, 1)
     text = _ANY_SHOULDER.format(book.figures.text(theta2, "angle"))
-    book.step(path, "Shoulder and slide", text)
+    book.step(path, tr("Shoulder and slide"), text)
     book.solved(path, side.theta1, theta2, stroke)
 
 
 # --- SCARA -----------------------------------------------------------------------------------------------------------
 
-_LEFT_RIGHT = ("elbow left", "elbow right")
-_YAW = "The tool of this arm stays upright. ψ is the yaw from its zero pose that comes nearest to the wanted rotation."
-_STROKE = "The height is the stroke's alone."
-_SUM = "The turning axes add up to the yaw."
+_LEFT_RIGHT = (tr_later("elbow left"), tr_later("elbow right"))
+_YAW = tr_later(
+    "The tool of this arm stays upright. ψ is the yaw from its zero pose that comes nearest to the wanted rotation."
+)
+_STROKE = tr_later("The height is the stroke's alone.")
+_SUM = tr_later("The turning axes add up to the yaw.")
 
 
 def solve_scara(book: Notebook, T: FloatArray) -> None:
@@ -184,14 +189,14 @@ def solve_scara(book: Notebook, T: FloatArray) -> None:
     links = Links(0, book.a(0), second, Quantity("\\lambda", lift, "angle") if abs(lift) > 1e-12 else None)
     left = -math.copysign(1.0, links.first.value)
     for fold in write_links(book, (), x, y, links, {left: _LEFT_RIGHT[0], -left: _LEFT_RIGHT[1]}):
-        book.step(fold.path, "Both links", _FOLD, *fold_equations(book, fold, x, y, links))
+        book.step(fold.path, tr("Both links"), _FOLD, *fold_equations(book, fold, x, y, links))
         _write_scara_end(book, fold, yaw, stroke)
 
 
 def _write_scara_end(book: Notebook, fold: Fold, yaw: Quantity, stroke: float) -> None:
     fixed = -float(book.rows.theta[2])
     parts = book.angle(0, fold.theta), book.angle(1, fold.next_theta)
-    book.step(fold.path, "Tool yaw", _SUM, *sum_equations(book, yaw, parts, 3, fixed))
+    book.step(fold.path, tr("Tool yaw"), _SUM, *sum_equations(book, yaw, parts, 3, fixed))
     theta4 = yaw.value + fixed - fold.theta - fold.next_theta
     book.solved(fold.path, fold.theta, fold.next_theta, stroke, theta4)
 
@@ -202,7 +207,7 @@ def _write_yaw(book: Notebook, S: FloatArray) -> Quantity:
     m = {f"m{i}{j}": Quantity(f"m_{{{i}{j}}}", float(M[i - 1, j - 1]), "number") for i in (1, 2) for j in (1, 2)}
     matrix = book.figures.matrix("M", "{}^0R_t\\,({}^4R_t)^T", M, ("number", "number"))
     angle = book.figures.equation(yaw, "\\operatorname{atan2}(<m21,>-<m12>,\\,<m11,>+<m22>)", **m)
-    book.step((), "Yaw", _YAW, matrix, angle)
+    book.step((), tr("Yaw"), _YAW, matrix, angle)
     return yaw
 
 
@@ -217,7 +222,7 @@ def _write_axis(book: Notebook, S: FloatArray, yaw: Quantity) -> tuple[Quantity,
     named = {"x": x, "y": y, "psi": yaw, "tx": Quantity("t_x", tip_x), "ty": Quantity("t_y", tip_y)}
     first = book.figures.equation(u, "<x,>-<tx>*\\cos <psi>+<ty>*\\sin <psi>", **named)
     second = book.figures.equation(w, "<y,>-<tx>*\\sin <psi>-<ty>*\\cos <psi>", **named)
-    book.step((), "Axis 4", "From the tool's tip back to axis 4.", first, second)
+    book.step((), tr("Axis 4"), tr("From the tool's tip back to axis 4."), first, second)
     return u, w
 
 
@@ -227,14 +232,14 @@ def _write_stroke(book: Notebook, S: FloatArray) -> float:
     if abs(raised.value - rows.d[0]) > 1e-12:
         raised = raised._replace(symbol="h")
     value = z.value - raised.value
-    book.step((), "Stroke", _STROKE, *book.joint(2, value, "<z,>-<h>", z=z, h=raised))
+    book.step((), tr("Stroke"), _STROKE, *book.joint(2, value, "<z,>-<h>", z=z, h=raised))
     return value
 
 
 # --- cylindrical -----------------------------------------------------------------------------------------------------
 
-_CYLINDRICAL = ("facing, extended ahead", "turned away, extended behind")
-_REST = "Height and distance are the two strokes' own."
+_CYLINDRICAL = (tr_later("facing, extended ahead"), tr_later("turned away, extended behind"))
+_REST = tr_later("Height and distance are the two strokes' own.")
 
 
 def solve_cylindrical(book: Notebook, T: FloatArray) -> None:
@@ -259,8 +264,12 @@ def solve_cylindrical(book: Notebook, T: FloatArray) -> None:
         first = f"{'' if side.turned == 0 else '-'}\\sqrt{{<x>^2+<y>^2{'-<d>^2' if offset else ''}}}"
         book.step(
             side.path,
-            "The three joints",
-            f"{_REST} At q₁ = 0 the arm points {book.figures.text(lead.value, 'angle')} from x.",
+            tr("The three joints"),
+            tr(
+                "{rest} At q₁ = 0 the arm points {text} from x.",
+                rest=_REST,
+                text=book.figures.text(lead.value, "angle"),
+            ),
             *book.joint(0, theta1, base + turned + "-<delta>", waist.psi, waist.gamma, lead),
             *book.joint(1, z.value - start.value, "<z,>-<h>", z=z, h=start),
             book.figures.equation(r, first, x=x, y=y, d=Quantity("d", offset)),
@@ -271,7 +280,9 @@ def solve_cylindrical(book: Notebook, T: FloatArray) -> None:
 
 # --- Cartesian -------------------------------------------------------------------------------------------------------
 
-_STROKES = "The strokes' directions, the columns of D, and the tool's place p₀ at zero strokes make a linear system."
+_STROKES = tr_later(
+    "The strokes' directions, the columns of D, and the tool's place p₀ at zero strokes make a linear system."
+)
 
 
 def solve_cartesian(book: Notebook, T: FloatArray) -> None:
@@ -284,10 +295,10 @@ def solve_cartesian(book: Notebook, T: FloatArray) -> None:
     values = np.linalg.solve(D, T[:3, 3] - start)
     matrix = book.figures.matrix("D", "\\begin{bmatrix} z_0 & z_1 & z_2 \\end{bmatrix}", D, ("number",) * 3)
     difference = book.figures.matrix("p-p_0", "", (T[:3, 3] - start)[:, None], ("length",))
-    book.step((), "Strokes", _STROKES, matrix, difference)
+    book.step((), tr("Strokes"), _STROKES, matrix, difference)
     solved = book.figures.matrix(
         "q", "D^{-1}\\,(p-p_0)", [[rows.joint(i, v)] for i, v in enumerate(values)], ("length",)
     )
-    path = ("the only solution",)
-    book.step(path, "Solve it", "Each stroke moves the tool along its own direction.", solved)
+    path = (tr("the only solution"),)
+    book.step(path, tr("Solve it"), tr("Each stroke moves the tool along its own direction."), solved)
     book.solved(path, *values.tolist())

@@ -9,6 +9,7 @@ from rvsim.kinematics.inverse.elbow import COSINE_TOLERANCE
 from rvsim.lab.worked.figures import Quantity
 from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.values import Path
+from rvsim.language import tr, tr_later
 
 _ON_AXIS = 1e-10  # of the arm's size, as in kinematics.inverse.waist
 
@@ -58,10 +59,10 @@ def write_waist(
     waist = Waist(x, y, Quantity("\\psi", psi, "angle"), Quantity("\\gamma", gamma, "angle"), ())
     equations = () if free else _equations(book, waist, Quantity("\\rho", rho), offset)
     if rho * rho - D * D < -2.0 * COSINE_TOLERANCE * D * D:
-        book.step((), "Waist", _BESIDE.format(what=what), *equations, failure=_too_near(book, rho, abs(D), what))
+        book.step((), tr("Waist"), _BESIDE.format(what=what), *equations, failure=_too_near(book, rho, abs(D), what))
         return waist
     text = _free(book, what, psi - lead) if free else (_BESIDE if D else _THROUGH).format(what=what)
-    book.step((), "Waist: two ways", text, *equations, choices=choices)
+    book.step((), tr("Waist: two ways"), text, *equations, choices=choices)
     out = math.sqrt(max(rho * rho - D * D, 0.0))
     turn = math.atan2(D, out)
     return waist._replace(
@@ -95,8 +96,10 @@ def plane_equations(book: Notebook, waist: Waist, side: Side, z: Quantity) -> tu
     )
 
 
-_BESIDE = "The arm's plane stands beside the base axis by a fixed distance; it can hold the {what} in two ways."
-_THROUGH = "The arm's plane must hold the {what}: the arm faces it, or is turned away from it."
+_BESIDE = tr_later(
+    "The arm's plane stands beside the base axis by a fixed distance; it can hold the {what} in two ways."
+)
+_THROUGH = tr_later("The arm's plane must hold the {what}: the arm faces it, or is turned away from it.")
 
 
 def _equations(book: Notebook, waist: Waist, rho: Quantity, offset: Quantity) -> Equations:
@@ -112,12 +115,20 @@ def _equations(book: Notebook, waist: Waist, rho: Quantity, offset: Quantity) ->
 
 def _free(book: Notebook, what: str, theta1: float) -> str:
     angle = book.figures.text(theta1, "angle")
-    return f"The {what} lies on the base axis, so the waist may stand anywhere: any q₁ will do. Here {angle} is taken."
+    return tr(
+        "The {what} lies on the base axis, so the waist may stand anywhere: any q₁ will do. Here {angle} is taken.",
+        what=what,
+        angle=angle,
+    )
 
 
 def _too_near(book: Notebook, rho: float, D: float, what: str) -> str:
     text = book.figures.text
-    return (
-        f"No solution: the {what} is {text(rho, 'length')} from the base axis and must be at least "
-        f"{text(D, 'length')} away. It lies {text(D - rho, 'length')} too near."
+    return tr(
+        "No solution: the {what} is {text} from the base axis and must be at least "
+        "{text2} away. It lies {text3} too near.",
+        what=what,
+        text=text(rho, "length"),
+        text2=text(D, "length"),
+        text3=text(D - rho, "length"),
     )

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import SettingError
+from rvsim.language import tr
 from rvsim.motion.laws.piecewise import PiecewisePolynomial
 from rvsim.robot.arrays import FloatArray
 
@@ -56,7 +57,7 @@ def jerk_limited(
         setattr(asked, name, np.broadcast_to(np.asarray(value, np.float64), (n,)).tolist())
     for name in ("max_velocity", "max_acceleration", "max_jerk"):
         if not all(0.0 < value < np.inf for value in getattr(asked, name)):
-            raise SettingError(name.replace("velocity", "speed"), min(getattr(asked, name)), "positive and finite")
+            raise SettingError(name.replace("velocity", "speed"), min(getattr(asked, name)), tr("positive and finite"))
     if duration is not None:
         asked.minimum_duration = duration
     found: Any = ruckig.Trajectory(n)
@@ -64,10 +65,10 @@ def jerk_limited(
         result = ruckig.Ruckig(n).calculate(asked, found)
     except ruckig.RuckigError as problem:
         raise SettingError(
-            "the motion", str(problem).split("] ")[-1], "within the limits at both of its ends"
+            tr("the motion"), str(problem).split("] ")[-1], tr("within the limits at both of its ends")
         ) from None
     if result not in (ruckig.Result.Working, ruckig.Result.Finished):
-        raise SettingError("the motion", str(result).split(".")[-1], "within the limits at both of its ends")
+        raise SettingError(tr("the motion"), str(result).split(".")[-1], tr("within the limits at both of its ends"))
     return _pieces(t0, start, found)
 
 

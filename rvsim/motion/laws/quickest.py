@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import SettingError
+from rvsim.language import tr
 from rvsim.motion.laws.piecewise import PiecewisePolynomial
 from rvsim.robot.arrays import FloatArray
 
@@ -50,7 +51,7 @@ def quickest_along(
     lines = _lines(slopes, bends, np.tile(acceleration, 2))
     highest = _backwards(most, lines, steps)
     if not np.isfinite(highest).all():
-        raise SettingError("max_acceleration", "infinite", "finite for a joint that moves")
+        raise SettingError("max_acceleration", "infinite", tr("finite for a joint that moves"))
     return _in_time(s, _forwards(highest, lines, steps))
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import SettingError
+from rvsim.language import tr
 from rvsim.motion.laws.piecewise import PiecewisePolynomial
 
 _LEAST, _MOST = 1e-3, 1e5  # [s]
@@ -39,7 +40,7 @@ def shortest_time(
     while not keeps(high):
         high *= _GROWTH
         if high > _MOST:
-            raise SettingError("the speeds at the ends", "too high", "within the limits of the joints")
+            raise SettingError(tr("the speeds at the ends"), tr("too high"), tr("within the limits of the joints"))
     if high == _LEAST:
         return high
     low = high / _GROWTH

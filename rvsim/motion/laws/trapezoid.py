@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import SettingError
+from rvsim.language import tr
 from rvsim.motion.laws.piecewise import PiecewisePolynomial
 from rvsim.robot.arrays import FloatArray
 
@@ -56,7 +57,7 @@ def _rates(way: FloatArray, limit: ArrayLike, name: str) -> float:
     """The largest rate of the common way 0…1 that keeps every joint's limit; infinite where nothing moves."""
     allowed = np.broadcast_to(np.asarray(limit, np.float64), way.shape)
     if not (allowed > 0.0).all():
-        raise SettingError(name, float(allowed.min()), "a positive number")
+        raise SettingError(name, float(allowed.min()), tr("a positive number"))
     moving = way != 0.0
     return float((allowed[moving] / np.abs(way[moving])).min()) if moving.any() else math.inf
 
@@ -75,7 +76,9 @@ def _slower(fastest: _Shape, acceleration: float, duration: float) -> _Shape:
     """The same acceleration, and the speed at which it takes just as long as is asked for."""
     least = 2.0 * fastest.blend + fastest.cruise
     if not math.isfinite(duration) or duration < least * (1.0 - 1e-9):
-        raise SettingError("duration", duration, f"at least {least:.4g} s, or the limits would be broken")
+        raise SettingError(
+            "duration", duration, tr("at least {least:.4g} s, or the limits would be broken", least=least)
+        )
     if math.isinf(acceleration):
         return _Shape(0.5 * duration, 0.0)
     root = math.sqrt(max(duration**2 - 4.0 / acceleration, 0.0))

@@ -1,0 +1,156 @@
+"""The language that rvsim speaks: `tr` says a text in it, or in English where nobody has translated it yet.
+
+English is what the code is written in; every other language is a gettext catalogue `resources/languages/CODE.po`.
+`packaging/dev.py texts` brings the catalogues up to date with the code. Files, the command line and the log stay
+English: machines and forums read them.
+"""
+
+from __future__ import annotations
+
+import gettext
+import string
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from rvsim.resources import resource
+
+
+class Language(NamedTuple):
+    """A language: its ISO 639 code, its own name for itself, and which way it is written."""
+
+    code: str
+    name: str
+    right_to_left: bool = False
+
+
+LANGUAGES = {
+    one.code: one
+    for one in (Language("en", "English"), Language("ar", "العربية", right_to_left=True), Language("de", "Deutsch"))
+}
+
+# Unicode's isolates (UAX #9): what stands between them is laid out by itself, so a minus stays before its number.
+_ISOLATE, _ISOLATE_LEFT_TO_RIGHT, _END = "\u2068", "\u2066", "\u2069"
+_STRIPPED = str.maketrans("", "", _ISOLATE + _ISOLATE_LEFT_TO_RIGHT + _END)
+
+
+class Text(str):
+    """A text that knows what it was made of, so that `again` can say it in another language."""
+
+    __slots__ = ("many", "number", "template", "values")
+
+    template: str
+    many: str
+    number: int
+    values: Mapping[str, object]
+
+
+class Catalogue(NamedTuple):
+    """What is translated into one language: from the English text to its forms, one for each kind of number."""
+
+    forms: Mapping[str, tuple[str, ...]]
+    kind_of_number: Callable[[int], int]
+
+
+class _Isolating(string.Formatter):
+    """Formats like `str.format`, with each value isolated: for texts that are written from right to left."""
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        return f"{_ISOLATE}{format(value, format_spec)}{_END}"
+
+
+_ISOLATING = _Isolating()
+_NONE = Catalogue({}, lambda number: int(number != 1))
+_spoken: tuple[Language, Catalogue] = (LANGUAGES["en"], _NONE)
+
+
+def language() -> Language:
+    """The language that is spoken now."""
+    return _spoken[0]
+
+
+def speak(code: str) -> None:
+    """Speak this language from now on; texts that were said before stay as they are.
+
+    Raises:
+        KeyError: for a code that is none of LANGUAGES.
+    """
+    global _spoken
+    spoken = LANGUAGES[code]
+    _spoken = spoken, (_NONE if code == "en" else read_catalogue(catalogue_file(code)))
+
+
+def catalogue_file(code: str) -> Path:
+    """Where the catalogue of a language is."""
+    return resource("languages", f"{code}.po")
+
+
+def read_catalogue(file: Path) -> Catalogue:
+    """A gettext catalogue: what is not translated in it, or marked as doubtful, is left out."""
+    import polib  # only those who speak another language pay for it
+
+    entries = polib.pofile(str(file), encoding="utf-8")
+    forms = {one.msgid: tuple(one.msgstr_plural.values()) or (one.msgstr,) for one in entries if one.translated()}
+    rule = entries.metadata.get("Plural-Forms", "nplurals=2; plural=n != 1;").partition("plural=")[2]
+    return Catalogue(forms, gettext.c2py(rule.rstrip("; ")))
+
+
+def tr(text: str, /, **values: object) -> str:
+    """A text in the language that is spoken; `{name}` in it is replaced by the value of that name, if there are any.
+
+    A text that is not written here, but comes from a table, is marked there by `tr_later`.
+    """
+    return _said(text, "", 1, values)
+
+
+def trn(one: str, many: str, number: int, /, **values: object) -> str:
+    """A text that depends on a number, which it may show as `{n}`: trn("{n} point", "{n} points", len(points))."""
+    return _said(one, many, number, {"n": number, **values})
+
+
+def tr_later(text: str) -> str:
+    """The text itself, marked as one that `tr` will say: for tables, which are made before a language is chosen."""
+    return text
+
+
+def again(text: str) -> str:
+    """A text of `tr` or `trn` in the language that is spoken now, with the texts in it; any other as it is."""
+    if not isinstance(text, Text):
+        return text
+    values = {name: again(value) if isinstance(value, str) else value for name, value in text.values.items()}
+    return _said(text.template, text.many, text.number, values)
+
+
+def _said(text: str, many: str, number: int, values: Mapping[str, object]) -> Text:
+    spoken, (forms, kind_of_number) = _spoken
+    found = forms.get(text)
+    if not many:
+        template = found[0] if found else text
+    elif found:
+        template = found[min(kind_of_number(number), len(found) - 1)]
+    else:
+        template = text if number == 1 else many
+    said = Text(template if not values else _fill(template, values, spoken.right_to_left))
+    said.template, said.many, said.number, said.values = text, many, number, values
+    return said
+
+
+def _fill(template: str, values: Mapping[str, object], right_to_left: bool) -> str:
+    return _ISOLATING.vformat(template, (), values) if right_to_left else template.format_map(values)
+
+
+def listed(words: Sequence[str]) -> str:
+    """Words as a list in a sentence: "a", "a and b", "a, b and c"; "" for none."""
+    if len(words) < 2:
+        return "".join(words)
+    return tr("{others} and {last}", others=tr(", ").join(words[:-1]), last=words[-1])
+
+
+def left_to_right(text: str) -> str:
+    """Numbers and formulas, kept in their order where the words around them are written from right to left."""
+    return f"{_ISOLATE_LEFT_TO_RIGHT}{text}{_END}" if text and _spoken[0].right_to_left else text
+
+
+def without_isolates(text: str) -> str:
+    """A text as a machine reads it, without the signs that order it on the screen."""
+    return text.translate(_STRIPPED)
