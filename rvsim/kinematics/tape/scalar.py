@@ -30,7 +30,7 @@ def scalar_function(program: Program) -> Play:
 
 
 def _source(program: Program) -> Iterator[str]:
-    yield tr("def play(q, result):")
+    yield "def play(q, result):"
     yield "".join(f"q{i}, " for i in range(program.dof)) + "= q"
     for angle in program.angles:
         yield tr("angle = {sum}", sum=_sum(angle))
