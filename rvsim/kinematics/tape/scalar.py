@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from rvsim.kinematics.tape.program import Angle, Program
-from rvsim.language import tr
 from rvsim.spatial.arrays import FloatArray
 
 Play = Callable[[list[float], FloatArray], None]
@@ -33,13 +32,13 @@ def _source(program: Program) -> Iterator[str]:
     yield "def play(q, result):"
     yield "".join(f"q{i}, " for i in range(program.dof)) + "= q"
     for angle in program.angles:
-        yield tr("angle = {sum}", sum=_sum(angle))
-        yield tr("c{number} = cos(angle)", number=angle.number)
-        yield tr("s{number} = sin(angle)", number=angle.number)
+        yield f"angle = {_sum(angle)}"
+        yield f"c{angle.number} = cos(angle)"
+        yield f"s{angle.number} = sin(angle)"
     expressions: dict[str, str] = {}
     yield from _assignments(program, expressions)
     values = ("-" * output.negative + expressions.get(output.name, output.name) for output in program.outputs)
-    yield tr("pack_into(result, 0, {values})", values=", ".join(values))
+    yield f"pack_into(result, 0, {', '.join(values)})"
 
 
 def _sum(angle: Angle) -> str:
