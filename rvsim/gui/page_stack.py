@@ -65,9 +65,9 @@ class PageStack(QWidget):
     def _button(self, number: int, page: Page) -> QToolButton:
         made = _PageButton(self)
         made.setObjectName(f"{page.name}_page_button")
-        made.setText(page.title)
-        made.setToolTip(page.tip)
-        made.setStatusTip(tr("{tip}. F1 explains this page.", tip=page.tip))
+        made.setText(tr(page.title))
+        made.setToolTip(tr(page.tip))
+        made.setStatusTip(tr("{tip}. F1 explains this page.", tip=tr(page.tip)))
         made.setCheckable(True)
         made.setProperty("role", "page")
         made.setSizePolicy(made.sizePolicy().horizontalPolicy().Expanding, made.sizePolicy().verticalPolicy())
@@ -127,7 +127,8 @@ class _PageButton(QToolButton):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Step with the arrows; anything else is the button's own."""
-        steps = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
+        onward = -1 if self.isRightToLeft() else 1
+        steps = {Qt.Key.Key_Left: -onward, Qt.Key.Key_Right: onward}
         key = Qt.Key(event.key())
         if key in steps:
             self._stack.step(steps[key], focus=True)

@@ -37,7 +37,7 @@ class PanelDocks:
         self.right[0].raise_()
 
     def _add(self, name: str, title: str, panel: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
-        dock = QDockWidget(title, self._window)
+        dock = QDockWidget(tr(title), self._window)
         dock.setObjectName(f"{name}_dock")
         dock.setWidget(panel)
         self._window.addDockWidget(area, dock)
@@ -76,9 +76,9 @@ class PanelDocks:
         pages = dock.widget()
         assert isinstance(pages, PageStack)
         for page in pages.pages:
-            action = menu.addAction(f"{dock.windowTitle()} › {page.title}")
+            action = menu.addAction(f"{dock.windowTitle()} › {tr(page.title)}")
             action.setObjectName(f"action_go_to_{page.name}_page")
-            action.setStatusTip(page.tip)
+            action.setStatusTip(tr(page.tip))
             action.triggered.connect(partial(self._go_to_page, dock, page))
 
     def go_to(self, dock: QDockWidget, _checked: bool = False) -> None:

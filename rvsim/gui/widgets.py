@@ -17,18 +17,20 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rvsim.language import tr
+
 
 def combo(object_name: str, title: str, choices: Mapping[str, str] | None = None) -> QComboBox:
-    """A combo box with a name for tests, one for screen readers, and choices data → text."""
+    """A combo box with a name for tests, one for screen readers, and choices data → text, said in the language."""
     box = QComboBox()
     box.setObjectName(object_name)
-    box.setAccessibleName(title)
-    box.setToolTip(title)
+    box.setAccessibleName(tr(title))
+    box.setToolTip(tr(title))
     box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
     box.setMinimumContentsLength(8)
     box.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
     for data, text in (choices or {}).items():
-        box.addItem(text, data)
+        box.addItem(tr(text), data)
     return box
 
 
@@ -46,10 +48,10 @@ def select(box: QComboBox, data: object) -> None:
 
 
 def button(object_name: str, text: str, tip: str, slot: Callable[[], object], *, primary: bool = False) -> QPushButton:
-    """A push button; the primary one of a panel is filled with the accent colour."""
-    made = QPushButton(text)
+    """A push button, its texts said in the language; the primary one of a panel is filled with the accent colour."""
+    made = QPushButton(tr(text))
     made.setObjectName(object_name)
-    made.setToolTip(tip)
+    made.setToolTip(tr(tip))
     made.setAutoDefault(False)
     made.setProperty("primary", primary)
     made.clicked.connect(lambda _checked=False: slot())
