@@ -67,6 +67,8 @@ class AnimationDialog(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._preferences, self._stage = session, preferences, stage
         self._trajectory: Playable | None = motion.player.trajectory
+        # The arm and the path of that motion: the window may show others by the time it is painted.
+        self._experiment, self._tracking = session.experiment, session.tracking
         self._opening_at = motion.opening_at
         self._animation: Animation | None = None
         self._worker = LatestWorker(self)
@@ -262,7 +264,7 @@ class AnimationDialog(QDialog):
 
     def _show_still(self) -> None:
         """The picture as it will look, at the present pose."""
-        image = self._picturing().frame(0.0, self._session.q, self.settings)
+        image = self._picturing().frame(0.0, self._experiment.q, self.settings)
         self._show_picture(QPixmap.fromImage(image))
 
     def _show_picture(self, picture: QPixmap) -> None:
@@ -282,15 +284,15 @@ class AnimationDialog(QDialog):
             length_unit=wanted["length_unit"],
         )
         camera = framed_for(view.camera, self.settings, view.width(), view.height())
-        tracking = self._session.tracking
+        tracking, robot = self._tracking, self._experiment.robot
         path = () if tracking is None else path_items(
             tracking.path.points, tracking.reached, np.empty((0, 3)), palette, marks=False
         )  # fmt: skip
         times, points = np.empty(0), np.empty((0, 3))
         if isinstance(self._trajectory, Trajectory) and wanted["show_trail"]:
             times = np.linspace(self._trajectory.path_start, self._trajectory.duration, _TRAIL)
-            points = forward_kinematics(self._session.robot, self._trajectory.q(times))[:, :3, 3]
-        return Picturing(self._session.robot, camera, palette, options, path, times, points, self._opening_at)
+            points = forward_kinematics(robot, self._trajectory.q(times))[:, :3, 3]
+        return Picturing(robot, camera, palette, options, path, times, points, self._opening_at)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Whatever is at work ends; Qt goes on with `reject`."""

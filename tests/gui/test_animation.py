@@ -141,3 +141,15 @@ def test_without_a_motion_there_is_nothing_to_export(window: MainWindow) -> None
     assert not dialog.findChild(QPushButton, "animation_start").isEnabled()
     assert "No motion yet" in dialog.findChild(QLabel, "animation_summary").text()
     dialog.close()
+
+
+def test_it_paints_the_motion_it_was_opened_for_whatever_the_window_shows_since(window: MainWindow) -> None:
+    window.tracker.track_line()
+    window.motion.pause()
+    dialog = opened(window)
+    window.session.use_robot(window.library["ur5e"])
+    dialog.findChild(QComboBox, "animation_size").setCurrentIndex(0)
+    dialog.start()
+    assert dialog.busy
+    dialog._paint_next()
+    dialog.close()

@@ -7,14 +7,16 @@ import re
 import numpy as np
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QVBoxLayout, QWidget
 
 from rvsim.errors import PoseError
+from rvsim.gui.text_box import TextBox
 from rvsim.gui.theme import set_role
 from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import nearest_rotation
 
+_LONGEST = 20_000  # characters: more than any matrix has, and a clipboard may hold a whole book
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _ROTATION = 1e-2  # a rotation that far from orthogonal is a mistake, not rounding
 _LENGTHS = re.compile(r"(?:lengths? in|radians and)\s+(mm|millimet\w+|m|met\w+|unit)\b")
@@ -119,7 +121,7 @@ class MatrixDialog(QDialog):
         self._T, self._factor = T, factor
         self.setObjectName("matrix_dialog")
         self.setWindowTitle(tr("Paste a matrix"))
-        self.text = QPlainTextEdit(QGuiApplication.clipboard().text())
+        self.text = TextBox(QGuiApplication.clipboard().text(), _LONGEST)
         self.text.setObjectName("matrix_text")
         self.text.setAccessibleName(tr("Matrix"))
         self.text.setPlaceholderText(_EXAMPLE)

@@ -16,7 +16,6 @@ from PySide6.QtWidgets import (
     QGroupBox,
     QHBoxLayout,
     QLineEdit,
-    QPlainTextEdit,
     QProgressBar,
     QVBoxLayout,
     QWidget,
@@ -29,11 +28,13 @@ from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.report.bundle import Order, Progress, free_folder, write_bundle, zip_of
 from rvsim.gui.session import Session
+from rvsim.gui.text_box import TextBox
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, form
 from rvsim.lab.report import PARTS, Cover, Study, parts_of, title_of
 from rvsim.language import tr, tr_later
 
+_LONGEST_LINE = 1000  # characters of a line of the cover, or of a folder
 _MISSING = {
     "steps": tr_later("This arm has no closed form."),
     "path": tr_later("Track a line or a trajectory first."),
@@ -71,7 +72,7 @@ class ReportDialog(QDialog):
         self.name_box.setPlaceholderText(tr("Your name"))
         today = QLocale(QLocale.Language.English).toString(QDate.currentDate(), tr("d MMMM yyyy"))
         self.date_box = _line("report_date", tr("Date"), today)
-        self.notes_box = QPlainTextEdit(notes.text)
+        self.notes_box = TextBox(notes.text)
         self.notes_box.setObjectName("report_notes")
         self.notes_box.setAccessibleName(tr("Notes"))
         self.notes_box.setPlaceholderText(tr("What you did and what you found; it stands below the title."))
@@ -257,6 +258,7 @@ class ReportDialog(QDialog):
 
 def _line(name: str, title: str, text: str) -> QLineEdit:
     box = QLineEdit(text)
+    box.setMaxLength(_LONGEST_LINE)
     box.setObjectName(name)
     box.setAccessibleName(title)
     return box
