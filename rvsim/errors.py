@@ -29,15 +29,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 from difflib import get_close_matches
 
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr
 
 
 def did_you_mean(found: str, known: Sequence[str]) -> str:
     """The sentence that offers what would have worked: the nearest of the known names, and all of them."""
     near = get_close_matches(found.lower(), [name.lower() for name in known], n=1)
     originals = {name.lower(): name for name in known}
-    guess = tr("Did you mean {originals!r}? ", originals=originals[near[0]]) if near else ""
-    return tr("{guess}Known: {known}.", guess=guess, known=", ".join(known))
+    if near:
+        return tr("Did you mean {guess!r}? Known: {known}.", guess=originals[near[0]], known=", ".join(known))
+    return tr("Known: {known}.", known=", ".join(known))
+
+
+def _unreadable(path: object, where: str, found: str, expected: str, suggestion: str = "") -> str:
+    """What is wrong at a place of a file, and what would work."""
+    message = tr(
+        "{path}: {where}: found {found}, expected {expected}.", path=path, where=where, found=found, expected=expected
+    )
+    return f"{message} {suggestion}".rstrip()
 
 
 class RvsimError(Exception):
@@ -67,9 +76,7 @@ class UnknownRobotError(RvsimError, LookupError):
 
     def __init__(self, name: str, known: Sequence[str]) -> None:
         self.name, self.known = name, tuple(known)
-        super().__init__(
-            tr("No robot {name!r}, and no such file. {did_you_mean}", name=name, did_you_mean=did_you_mean(name, known))
-        )
+        super().__init__(f"{tr('No robot {name!r}, and no such file.', name=name)} {did_you_mean(name, known)}")
 
 
 class RobotFileError(RvsimError, ValueError):
@@ -86,14 +93,7 @@ class RobotFileError(RvsimError, ValueError):
     def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
         self.path, self.where, self.suggestion = str(path), where, suggestion
         self.found, self.expected = found, expected
-        message = tr(
-            "{path}: {where}: found {found}, expected {expected}.",
-            path=path,
-            where=where,
-            found=found,
-            expected=expected,
-        )
-        super().__init__(f"{message} {suggestion}".rstrip())
+        super().__init__(_unreadable(path, where, found, expected, suggestion))
 
 
 class UnknownNameError(RvsimError, LookupError):
@@ -101,7 +101,8 @@ class UnknownNameError(RvsimError, LookupError):
 
     def __init__(self, kind: str, name: str, known: Sequence[str]) -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
-        super().__init__(f"No {kind} {name!r}. {did_you_mean(name, known)}")
+        unknown = tr("No {kind} {name!r}.", kind=tr(kind), name=name)
+        super().__init__(f"{unknown} {did_you_mean(name, known)}")
 
 
 class LetterError(RvsimError, LookupError):
@@ -109,9 +110,12 @@ class LetterError(RvsimError, LookupError):
 
     def __init__(self, letter: str) -> None:
         self.letter = letter
-        known = tr("It knows the Latin letters with and without accents, digits and the usual signs.")
         super().__init__(
-            tr("The pen cannot write “{letter}”. {known}", letter=letter, known=known)
+            tr(
+                "The pen cannot write “{letter}”. It knows the Latin letters with and without accents, digits and the "
+                "usual signs.",
+                letter=letter,
+            )
             if letter
             else tr("Type a letter or more to be written.")
         )
@@ -154,15 +158,7 @@ class PathFileError(RvsimError, ValueError):
 
     def __init__(self, path: object, where: str, found: str, expected: str) -> None:
         self.path, self.where, self.found, self.expected = str(path), where, found, expected
-        super().__init__(
-            tr(
-                "{path}: {where}: found {found}, expected {expected}.",
-                path=path,
-                where=where,
-                found=found,
-                expected=expected,
-            )
-        )
+        super().__init__(_unreadable(path, where, found, expected))
 
 
 class ProgramFileError(RvsimError, ValueError):
@@ -170,16 +166,7 @@ class ProgramFileError(RvsimError, ValueError):
 
     def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
         self.path, self.where, self.found, self.expected = str(path), where, found, expected
-        super().__init__(
-            tr(
-                "{path}: {where}: found {found}, expected {expected}. {suggestion}",
-                path=path,
-                where=where,
-                found=found,
-                expected=expected,
-                suggestion=suggestion,
-            ).rstrip()
-        )
+        super().__init__(_unreadable(path, where, found, expected, suggestion))
 
 
 class SessionFileError(RvsimError, ValueError):
@@ -188,16 +175,7 @@ class SessionFileError(RvsimError, ValueError):
     def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
         self.path, self.where, self.suggestion = str(path), where, suggestion
         self.found, self.expected = found, expected
-        super().__init__(
-            tr(
-                "{path}: {where}: found {found}, expected {expected}. {suggestion}",
-                path=path,
-                where=where,
-                found=found,
-                expected=expected,
-                suggestion=suggestion,
-            ).rstrip()
-        )
+        super().__init__(_unreadable(path, where, found, expected, suggestion))
 
 
 class FileWriteError(RvsimError, OSError):
@@ -286,4 +264,4 @@ class DeviceError(RvsimError, OSError):
 
     def __init__(self, port: str, what: str, remedy: str = "") -> None:
         self.port, self.what, self.remedy = port, what, remedy
-        super().__init__(f"{port}: {what}. {remedy}".rstrip())
+        super().__init__(f"{left_to_right(port)}: {what}. {remedy}".rstrip())

@@ -30,9 +30,9 @@ _TYPOGRAPHY = str.maketrans({"\u2212": "-", "\u2013": "-", "×": "*", "·": "*",
 _UNITS = {
     **dict.fromkeys(("°", "deg", "degree", "degrees"), (tr_later("an angle"), math.pi / 180.0)),
     **dict.fromkeys(("rad", "radian", "radians"), (tr_later("an angle"), 1.0)),
-    "mm": ("a length", 1e-3),
-    "cm": ("a length", 1e-2),
-    "m": ("a length", 1.0),
+    "mm": (tr_later("a length"), 1e-3),
+    "cm": (tr_later("a length"), 1e-2),
+    "m": (tr_later("a length"), 1.0),
     **dict.fromkeys(("unit", "units"), (tr_later("a length without a unit"), 1.0)),
 }
 _WITH_UNIT = re.compile(rf"(.*?)\s*({'|'.join(sorted(_UNITS, key=len, reverse=True))})", re.DOTALL)
@@ -58,10 +58,11 @@ def evaluate_in(unit: str, text: str) -> float:
     except ExpressionError as problem:
         raise ExpressionError(text, problem.reason) from None
     kind, size = _UNITS[match[2]]
-    wanted, wanted_size = _UNITS.get(unit, ("a plain number", 1.0))
+    wanted, wanted_size = _UNITS.get(unit, (tr_later("a plain number"), 1.0))
     if kind != wanted:
         raise ExpressionError(
-            text, tr("“{match}” makes it {kind}, and wanted is {wanted}", match=match[2], kind=kind, wanted=wanted)
+            text,
+            tr("“{unit}” makes it {kind}, and wanted is {wanted}", unit=match[2], kind=tr(kind), wanted=tr(wanted)),
         )
     return value * (size / wanted_size)
 
@@ -156,7 +157,7 @@ def _formula_value(text: str, cleaned: str, t: NDArray[np.float64]) -> Any:
     except NameNotDefined as problem:
         raise ExpressionError(text, tr("there is no “{name}”, only t, pi, e and tau", name=problem.name)) from None
     except FunctionNotDefined as problem:
-        raise ExpressionError(text, tr("there is no function “{func_name}”", func_name=problem.func_name)) from None
+        raise ExpressionError(text, tr("there is no function “{function}”", function=problem.func_name)) from None
     except ZeroDivisionError:
         raise ExpressionError(text, tr("it divides by zero")) from None
     except Exception:

@@ -49,9 +49,7 @@ class NotesDialog(QDialog):
     def _write(self, text: str, merge: str) -> None:
         written = self.text.toPlainText()
         if len(written) > LONGEST_NOTES:
-            self._session.warn(
-                tr("Notes have at most {longest_notes} characters: the rest was left out.", longest_notes=LONGEST_NOTES)
-            )
+            self._session.warn(tr("Notes have at most {most} characters: the rest was left out.", most=LONGEST_NOTES))
         notes = Notes(self.student.text(), written[:LONGEST_NOTES])
         self._session.edit(text, self._session.experiment.with_notes(notes), merge=f"notes {merge}")
 

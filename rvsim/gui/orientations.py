@@ -28,7 +28,7 @@ _ROUNDING = 1e-9
 class Notation(NamedTuple):
     """A notation: `read` gives its numbers of R (3, 3); `write` gives R of the numbers, where each may be changed.
 
-    Its first `direction` numbers only count by their ratios: they are brought to length 1.
+    Its first `direction` numbers only count by their ratios: they are brought to length 1. Its texts are English.
     """
 
     title: str
@@ -44,11 +44,10 @@ class Notation(NamedTuple):
         """Why the numbers (k,) mean no orientation, or nothing."""
         if not self.direction or float(np.linalg.norm(values[: self.direction])) >= _NO_DIRECTION:
             return ""
-        names = ", ".join(self.names[: self.direction])
         return tr(
-            "{direction}has no direction: one of {names} must be other than 0. The tool stays.",
-            direction="0 " * self.direction,
-            names=names,
+            "{zeros} has no direction: one of {names} must be other than 0. The tool stays.",
+            zeros=" ".join("0" * self.direction),
+            names=", ".join(map(tr, self.names[: self.direction])),
         )
 
 
@@ -73,16 +72,22 @@ def _rotation_of_axis_and_angle(numbers: FloatArray) -> FloatArray:
 
 
 _PASTE_THREE = tr_later("Three numbers can be pasted or typed into any of the boxes.")
-_PASTE_FOUR = tr_later(
+_PASTE_QUATERNION = tr_later(
     "Type one after the other: each stays as it is typed until you leave the boxes,\n"
-    "{}\nFour numbers can be pasted or typed into any of the boxes."
+    "then the four are shown brought to length 1, as the tool has taken them.\n"
+    "Four numbers can be pasted or typed into any of the boxes."
+)
+_PASTE_AXIS = tr_later(
+    "Type one after the other: each stays as it is typed until you leave the boxes,\n"
+    "then the axis is shown brought to length 1, as the tool has taken it.\n"
+    "Four numbers can be pasted or typed into any of the boxes."
 )
 _ANGLES: tuple[Kind, ...] = ("angle", "angle", "angle")
 NOTATIONS = {
     "rpy": Notation(
         tr_later("Roll, pitch, yaw"),
         tr_later("R = Rz(yaw) · Ry(pitch) · Rx(roll), about the axes of the base. At pitch ±90° roll is shown as 0."),
-        ("roll", "pitch", "yaw"),
+        (tr_later("roll"), tr_later("pitch"), tr_later("yaw")),
         _ANGLES,
         rpy_from_rotation,
         rotation_from_rpy,
@@ -104,17 +109,17 @@ NOTATIONS = {
         ("number", "number", "number", "number"),
         _quaternion,
         rotation_from_quaternion,
-        _PASTE_FOUR.format(tr_later("then the four are shown brought to length 1, as the tool has taken them.")),
+        _PASTE_QUATERNION,
         4,
     ),
     "axis_angle": Notation(
         tr_later("Axis and angle"),
         tr_later("A turn by the angle, 0° to 180°, about a unit axis in base coordinates."),
-        ("axis x", "axis y", "axis z", "angle"),
+        (tr_later("axis x"), tr_later("axis y"), tr_later("axis z"), tr_later("angle")),
         ("number", "number", "number", "angle"),
         _axis_and_angle,
         _rotation_of_axis_and_angle,
-        _PASTE_FOUR.format(tr_later("then the axis is shown brought to length 1, as the tool has taken it.")),
+        _PASTE_AXIS,
         3,
     ),
 }

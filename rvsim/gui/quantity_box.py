@@ -12,7 +12,7 @@ from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate_in
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number, without_unit
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr
 
 _LONGEST = 400  # characters: more than any number or pose; ten million that are pasted must not be laid out
 _MARGINS = 4  # [pixels] that the line edit keeps left and right of its text
@@ -32,12 +32,13 @@ class QuantityBox(QDoubleSpinBox):
 
     def __init__(self, kind: Kind, preferences: Preferences, title: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._kind, self._preferences, self._title = kind, preferences, title
+        self._kind, self._preferences, self._title = kind, preferences, tr(title)
         self._quantity, self._lower, self._upper = 0.0, -math.inf, math.inf
         self._limits_hint = ""
         self._span = (0.0, 0.0)
         self.setKeyboardTracking(False)
-        self.setAccessibleName(title)
+        self.setAccessibleName(self._title)
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # a number and its unit, in any language
         self.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.setCorrectionMode(QAbstractSpinBox.CorrectionMode.CorrectToPreviousValue)
         self.setDecimals(_KEPT_DECIMALS)
@@ -93,7 +94,7 @@ class QuantityBox(QDoubleSpinBox):
         text = self.textFromValue(self.value()) + self.suffix()
         if text != self.lineEdit().text() or self.lineEdit().isModified():
             self.lineEdit().setText(text)
-        self.setToolTip(f"{self._title}: {self._quantity * shown.factor:.12g}{shown.suffix}")
+        self.setToolTip(f"{self._title}: {left_to_right(f'{self._quantity * shown.factor:.12g}{shown.suffix}')}")
         self.blockSignals(blocked)
 
     def _has_room_for(self, unit: str) -> bool:
@@ -185,27 +186,27 @@ class QuantityBox(QDoubleSpinBox):
         texts = [format_number(number, shown.decimals) + shown.suffix for number in (value, lower, upper)]
         if math.isinf(self._upper):
             return tr(
-                "{title}: {texts} is below {texts2}. {limits_hint}",
+                "{title}: {number} is below {lowest}. {hint}",
                 title=self._title,
-                texts=texts[0],
-                texts2=texts[1],
-                limits_hint=self._limits_hint,
+                number=texts[0],
+                lowest=texts[1],
+                hint=self._limits_hint,
             ).rstrip()
         if math.isinf(self._lower):
             return tr(
-                "{title}: {texts} is above {texts2}. {limits_hint}",
+                "{title}: {number} is above {highest}. {hint}",
                 title=self._title,
-                texts=texts[0],
-                texts2=texts[2],
-                limits_hint=self._limits_hint,
+                number=texts[0],
+                highest=texts[2],
+                hint=self._limits_hint,
             ).rstrip()
         return tr(
-            "{title}: {texts} lies outside {texts2} … {texts3}. {limits_hint}",
+            "{title}: {number} lies outside {lowest} … {highest}. {hint}",
             title=self._title,
-            texts=texts[0],
-            texts2=texts[1],
-            texts3=texts[2],
-            limits_hint=self._limits_hint,
+            number=texts[0],
+            lowest=texts[1],
+            highest=texts[2],
+            hint=self._limits_hint,
         ).rstrip()
 
     # --- keys and wheel --------------------------------------------------------------------------------------------

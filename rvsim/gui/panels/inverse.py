@@ -111,7 +111,7 @@ class TargetSection(QWidget):
         shown = "rpy" if name == MATRIX else name
         select(self.notation, shown)
         self.notation.setToolTip(
-            tr("Notation of the orientation. {convention}", convention=NOTATIONS[shown].convention)
+            tr("Notation of the orientation. {convention}", convention=tr(NOTATIONS[shown].convention))
         )
         self.angles.show_notation(shown)
 

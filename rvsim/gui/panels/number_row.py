@@ -49,11 +49,11 @@ class NumberRow(QWidget):
         self.hint = hint
         self.boxes: list[ListBox] = []
         for column, (name, kind) in enumerate(zip(names, kinds, strict=True)):
-            box = ListBox(kind, preferences, f"{title} {name}", self._units, hint)
+            box = ListBox(kind, preferences, f"{tr(title)} {tr(name)}", self._units, tr(hint))
             box.setObjectName(f"{prefix}_{name.replace(' ', '_')}")
             box.setMinimumWidth(64)
             box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-            label = QLabel(name)
+            label = QLabel(tr(name))
             label.setBuddy(box)
             set_role(label, role="muted")
             grid.addWidget(label, 0, column, Qt.AlignmentFlag.AlignRight)
@@ -86,11 +86,11 @@ class NumberRow(QWidget):
         """Take all the numbers [shown units], given to the box of that index."""
         box = self.boxes[index]
         if len(values) != len(self.boxes) or not all(abs(value) <= _LARGEST for value in values):
-            wanted = tr("{count} numbers: {names}", count=len(self.boxes), names=", ".join(self._names))
+            wanted = tr("{count} numbers: {names}", count=len(self.boxes), names=", ".join(map(tr, self._names)))
             box.refused.emit(
                 tr(
                     "{title}: not taken, for here one number can be given, or {wanted}.",
-                    title=self._title,
+                    title=tr(self._title),
                     wanted=wanted,
                 )
             )

@@ -74,7 +74,7 @@ class OrientationBoxes(QWidget):
         self.setToolTip(why)
         for row in self.rows.values():
             for box in row.boxes:
-                box.set_hint(why or row.hint)
+                box.set_hint(why or tr(row.hint))
 
     def show_rotation(self, R: FloatArray) -> None:
         """Show an orientation (3, 3)."""

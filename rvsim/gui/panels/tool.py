@@ -138,11 +138,11 @@ class ToolPanel(ReadOutPanel):
         self.matrix.setVisible(chosen == MATRIX)
         if chosen == MATRIX:
             self.matrix.show_matrix(self._T, length_kind(self._session.robot))
-            self.convention.setText(MATRIX_CONVENTION)
+            self.convention.setText(tr(MATRIX_CONVENTION))
         else:
             self.angles.show_notation(chosen)
             self.angles.show_rotation(self._T[:3, :3])
-            self.convention.setText(NOTATIONS[chosen].convention)
+            self.convention.setText(tr(NOTATIONS[chosen].convention))
 
     def _take_robot(self, robot: Robot) -> None:
         self._robot = robot
