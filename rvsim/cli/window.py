@@ -11,6 +11,7 @@ from rvsim.cli.arguments import output_file
 from rvsim.cli.outcome import InputError
 from rvsim.files import load_robot
 from rvsim.files.session_file import load_session
+from rvsim.language import LANGUAGES
 
 _PANELS = (
     "path", "check", "program", "compare", "inverse", "how", "lab",
@@ -30,6 +31,9 @@ def add_window_options(parser: argparse.ArgumentParser) -> None:
     )
     window.add_argument("--renderer", choices=("auto", "gl", "painter"), help="who draws the scene")
     window.add_argument("--theme", choices=("light", "dark"))
+    window.add_argument(
+        "--language", choices=tuple(LANGUAGES), help="of the window; else the one last chosen, or the system's"
+    )
     window.add_argument("--screenshot", type=output_file, metavar="FILE.png", help="open, draw, save, leave")
     window.add_argument("--size", type=_size, metavar="1366x768", help="of the window")
     window.add_argument("--state", default="home", metavar="home|line|arm|PATH", help="what the screenshot shows")

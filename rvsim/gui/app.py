@@ -12,6 +12,8 @@ from PySide6.QtWidgets import QApplication
 
 from rvsim.files import user_folder
 from rvsim.gui.crash import CrashReporter, start_log
+from rvsim.gui.language_switch import WindowKeeper
+from rvsim.gui.languages import system_language, wear_language
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.recovery_dialog import offer_recovery
@@ -80,22 +82,28 @@ def main(options: argparse.Namespace) -> int:
     reporter = CrashReporter(start_log(user_folder() / "log"))
     reporter.install()
     preferences = Preferences() if options.screenshot else user_preferences()
-    for name in ("theme", "look"):
+    for name in ("theme", "look", "language"):
         if getattr(options, name):
             preferences.set(name, getattr(options, name))
-    window = build_window(preferences, robot=options.robot or "", renderer=options.renderer or "")
-    reporter.parent_widget = lambda: window
+    wear_language(app, preferences["language"] or ("en" if options.screenshot else system_language()))
+    keeper = WindowKeeper(build_window(preferences, robot=options.robot or "", renderer=options.renderer or ""))
+    reporter.parent_widget = lambda: keeper.window
     if options.screenshot:
         if options.open is not None:
-            window.document.open(Path(options.open))
-        return save_screenshot(window, options)
+            keeper.window.document.open(Path(options.open))
+        return save_screenshot(keeper.window, options)
+    _begin(keeper.window, options.open)
+    return app.exec()
+
+
+def _begin(window: MainWindow, file: str | None) -> None:
+    """Show the window with what was asked for; who is here for the first time is offered a tour."""
     _open(window)
-    _begin_document(window, options.open)
-    if not preferences["tour_seen"]:
+    _begin_document(window, file)
+    if not window.preferences["tour_seen"]:
         from rvsim.gui.tour import offer_tour  # once in a lifetime: other starts need not pay for it
 
         offer_tour(window)
-    return app.exec()
 
 
 def _begin_document(window: MainWindow, file: str | None) -> None:

@@ -180,6 +180,15 @@ class DeviceControl(QObject):
         self._state = None
         self.state_changed.emit(None)
 
+    def take_over(self, other: DeviceControl) -> None:
+        """Go on with the arm of a window that this one takes the place of; nothing moves by that."""
+        other._timer.stop()
+        self._driver, other._driver = other._driver, None
+        self._witness, self.title, self.table = other._witness, other.title, other.table
+        if self._driver is not None:
+            self._timer.start()
+            self.poll()
+
     def close(self) -> None:
         """The window closes: stop the arm first."""
         if self._driver is not None:

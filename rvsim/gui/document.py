@@ -63,6 +63,16 @@ class Document(QObject):
         self.asks = True
         self.autosave.start(autosave_seconds())
 
+    def take_over(self, other: Document) -> None:
+        """Go on with the file of a window that this one takes the place of."""
+        self.path, self.read_only, self._unsaved = other.path, other.read_only, other._unsaved
+        self._clean, self._saved_port = other._clean, other._saved_port
+        if other.asks:
+            self.begin()
+            self.autosave.tick()  # before the other's copy goes
+        other.asks = False
+        self.show_title()
+
     # --- what is to be lost ------------------------------------------------------------------------------------------
 
     @property

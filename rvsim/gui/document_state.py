@@ -31,7 +31,7 @@ def state_of(window: MainWindow) -> SessionState:
     """All that is to be saved, as it is now."""
     experiment = window.session.at_rest
     left = tuple(one for one in window.session.left if not _is_untouched(window.session, one))
-    return SessionState(experiment, left, port_section(window).settings, _view_of(window))
+    return SessionState(experiment, left, port_section(window).settings, view_of(window))
 
 
 def _is_untouched(session: Session, one: Experiment) -> bool:
@@ -40,7 +40,8 @@ def _is_untouched(session: Session, one: Experiment) -> bool:
     return kind.plain(one) == kind.plain(session.fresh(one.robot))
 
 
-def _view_of(window: MainWindow) -> View:
+def view_of(window: MainWindow) -> View:
+    """From where the scene is seen, and what is in front."""
     camera, framed = window.scene_view.stance
     seen = CameraView(camera.azimuth, camera.elevation, camera.field_of_view, camera.orthographic)
     if not framed:
@@ -62,7 +63,7 @@ def show_state(window: MainWindow, state: SessionState) -> None:
     window.session.begin(_fitting(window, state.experiment), left)
     port_section(window).show_settings(state.device)
     window.tracker.track_quietly(state.view.tracked)
-    _show_view(window, state.view)
+    show_view(window, state.view)
 
 
 def _fitting(window: MainWindow, experiment: Experiment) -> Experiment:
@@ -85,7 +86,8 @@ def _own_robot(window: MainWindow, robot: Robot) -> Robot:
     return known if ExperimentKind.arm(known) == text else robot
 
 
-def _show_view(window: MainWindow, view: View) -> None:
+def show_view(window: MainWindow, view: View) -> None:
+    """Look at the scene from there, with that panel in front."""
     window.preferences.set("look", view.look)
     if view.speed in SETTINGS["speed"].choices:
         window.preferences.set("speed", view.speed)

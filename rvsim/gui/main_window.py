@@ -19,6 +19,7 @@ from rvsim.gui.device_words import phase_level, phase_words
 from rvsim.gui.document import Document
 from rvsim.gui.emergency_stop import EmergencyStop
 from rvsim.gui.gizmo_drag import GizmoDrag
+from rvsim.gui.languages import language_menu
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.page_stack import Page, PageStack
 from rvsim.gui.panel_docks import PanelDocks, lies_behind
@@ -61,7 +62,7 @@ _TOOLBAR = ("home", "|", "undo", "redo", "|", "view_iso", "view_top", "view_fron
             "|", "look_stick", "look_solid", "look_both", "show_frames", "|",
             "show_plots", "dark")  # fmt: skip
 _TOOLBAR_TEXTS = {
-    "home": "⌂ Home", "undo": "↶ Undo", "redo": "↷ Redo", "view_iso": tr_later("Iso"),
+    "home": tr_later("⌂ Home"), "undo": tr_later("↶ Undo"), "redo": tr_later("↷ Redo"), "view_iso": tr_later("Iso"),
     "look_stick": tr_later("Stick"), "look_both": tr_later("Both"), "dark": "◐",
 }  # fmt: skip
 _TELL_MS = 250
@@ -79,7 +80,7 @@ class MainWindow(QMainWindow):
     def __init__(self, session: Session, preferences: Preferences, library: RobotLibrary, choice: Choice) -> None:
         super().__init__()
         self.setObjectName("main_window")
-        self.session, self.preferences, self.library = session, preferences, library
+        self.session, self.preferences, self.library, self.choice = session, preferences, library, choice
         self.collector = RubbishCollector(self)  # before any worker
         self.motion = MotionControl(session, preferences, self)
         self.tracker = PathTracker(session, self.motion, self)
@@ -131,6 +132,7 @@ class MainWindow(QMainWindow):
         assert menu is not None
         menu.addSeparator()
         menu.addMenu(self.docks.make_menu())
+        menu.addMenu(language_menu(self, self.preferences))
         help_menu = self.findChild(QMenu, "help_menu")
         assert help_menu is not None
         self.menuBar().insertMenu(help_menu.menuAction(), make_sources_menu(self))
@@ -199,7 +201,7 @@ class MainWindow(QMainWindow):
                 bar.addSeparator()
                 continue
             action = self.actions_by_name[name]
-            action.setIconText(_TOOLBAR_TEXTS.get(name, action.text()))
+            action.setIconText(tr(_TOOLBAR_TEXTS[name]) if name in _TOOLBAR_TEXTS else action.text())
             bar.addAction(action)
         self.addToolBar(bar)
         self.addToolBar(self.emergency_stop.toolbar())
@@ -219,10 +221,10 @@ class MainWindow(QMainWindow):
             self.actions_by_name[name] = action
         UndoWords(self.actions_by_name["undo"], self.actions_by_name["redo"], stack, self)
         self.actions_by_name["undo"].triggered.connect(
-            lambda: self.session.say(tr("Undone: {redoText}.", redoText=stack.redoText()))
+            lambda: self.session.say(tr("Undone: {step}.", step=stack.redoText()))
         )
         self.actions_by_name["redo"].triggered.connect(
-            lambda: self.session.say(tr("Done again: {undoText}.", undoText=stack.undoText()))
+            lambda: self.session.say(tr("Done again: {step}.", step=stack.undoText()))
         )
 
     def _add_recent_menu(self) -> None:
@@ -331,7 +333,10 @@ class MainWindow(QMainWindow):
     # --- layout ----------------------------------------------------------------------------------------------------
 
     def _restore_layout(self) -> None:
-        geometry, layout = self.preferences.window_state("geometry"), self.preferences.window_state("layout")
+        self.lay_out(self.preferences.window_state("geometry"), self.preferences.window_state("layout"))
+
+    def lay_out(self, geometry: QByteArray, layout: QByteArray) -> None:
+        """Take the geometry and dock layout that another window had; what is empty is left as it is."""
         if not geometry.isEmpty():
             self.restoreGeometry(geometry)
         self._laid_out = not layout.isEmpty() and self.restoreState(layout, _STATE_VERSION)
@@ -373,6 +378,14 @@ class MainWindow(QMainWindow):
         if not self.document.may_close():
             event.ignore()
             return
+        geometry, layout = self.window_layout()
+        self.preferences.keep_window_state("geometry", geometry)
+        self.preferences.keep_window_state("layout", layout)
+        self.end()
+        super().closeEvent(event)
+
+    def end(self) -> None:
+        """Let go of the arm, and end all threads."""
         self.device.close()
         self.served.end()
         self.tracker.close()
@@ -380,7 +393,3 @@ class MainWindow(QMainWindow):
         self.laboratory.stop()
         self.docks.close_workers()
         self.collector.end()
-        geometry, layout = self.window_layout()
-        self.preferences.keep_window_state("geometry", geometry)
-        self.preferences.keep_window_state("layout", layout)
-        super().closeEvent(event)

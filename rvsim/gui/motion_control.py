@@ -9,6 +9,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 from rvsim.experiment import Experiment
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
+from rvsim.language import again
 from rvsim.playback import Player
 from rvsim.playback.player import Playable
 
@@ -67,6 +68,14 @@ class MotionControl(QObject):
         self._motion += 1
         self.loaded.emit()
         self._tell()
+
+    def take_over(self, other: MotionControl) -> None:
+        """Go on with the motion of a window that this one takes the place of, held where it is."""
+        trajectory, time = other.player.trajectory, other.player.time
+        if trajectory is not None:
+            self.load(trajectory, again(other._text), other.opening_at)
+            self.player.seek(time)
+            self.moved.emit(time)
 
     @property
     def opening(self) -> float:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from PySide6.QtCore import QByteArray, QObject, QSettings, Signal
+from PySide6.QtCore import QByteArray, QMetaMethod, QObject, QSettings, Signal, SignalInstance
 
-from rvsim.language import tr_later
+from rvsim.language import LANGUAGES, tr_later
 
 
 class Setting(NamedTuple):
@@ -18,6 +18,7 @@ class Setting(NamedTuple):
 
 
 SETTINGS: dict[str, Setting] = {
+    "language": Setting("", ("", *LANGUAGES)),  # "": that of the system
     "theme": Setting("light", ("light", "dark")),
     "angle_unit": Setting("deg", ("deg", "rad")),
     "length_unit": Setting("mm", ("mm", "m")),
@@ -46,6 +47,13 @@ SETTINGS: dict[str, Setting] = {
 }
 
 
+def forget_listeners(sender: QObject, *signals: SignalInstance) -> None:
+    """Tell nobody any more who has asked to be told by these signals of `sender`."""
+    for signal in signals:
+        if sender.isSignalConnected(QMetaMethod.fromSignal(signal)):
+            signal.disconnect()
+
+
 class Preferences(QObject):
     """The settings in force; `changed(name)` tells when one of them gets another value."""
 
@@ -70,6 +78,10 @@ class Preferences(QObject):
         if self._store is not None:
             self._store.setValue(f"preferences/{name}", value)
         self.changed.emit(name)
+
+    def renew(self) -> None:
+        """Another window takes the place of the one that listened: nothing tells the old one any more."""
+        forget_listeners(self, self.changed)
 
     def window_state(self, key: str) -> QByteArray:
         """What `keep_window_state` kept under that key, or nothing."""

@@ -110,6 +110,15 @@ class ServedArm(QObject):
             server.close()
             self.changed.emit()
 
+    def take_over(self, other: ServedArm) -> None:
+        """Go on serving the arm of a window that this one takes the place of."""
+        other._timer.stop()
+        self._server, other._server = other._server, None
+        self._arm, self._wire = other._arm, other._wire
+        if self._server is not None:
+            self._timer.start()
+            self.changed.emit()
+
     def _watch(self) -> None:
         """It may end by itself, for instance when its link is taken away."""
         self.watched.emit()

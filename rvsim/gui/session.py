@@ -11,8 +11,9 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from rvsim.experiment import Experiment, LimitViolation, limit_violations
+from rvsim.gui.preferences import forget_listeners
 from rvsim.gui.servo_limits import ServoLimits
-from rvsim.language import tr
+from rvsim.language import again, tr
 from rvsim.motion import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -23,8 +24,13 @@ class _Change(QUndoCommand):
 
     def __init__(self, session: Session, text: str, after: Experiment, merge: str, follows: str) -> None:
         super().__init__(text)
+        self._text = text
         self._session, self.merge, self.follows = session, merge, follows  # `follows`: the key of the change before it
         self._before, self._after = session.experiment, after
+
+    def say_again(self) -> None:
+        """Give it its name in the language that is spoken now."""
+        self.setText(again(self._text))
 
     def continues(self, merge: str) -> bool:
         """Whether a change with that key goes on with this one."""
@@ -143,6 +149,16 @@ class Session(QObject):
         open_ended = stack.index() == stack.count() > 0 and not stack.isClean()
         last = stack.command(stack.index() - 1) if open_ended else None
         return last if isinstance(last, _Change) else None
+
+    def renew(self) -> None:
+        """Another window takes the place of the one that this belonged to: nothing tells the old one any more."""
+        stack = self.undo_stack
+        forget_listeners(self, self.changed, self.settled, self.tracking_changed, self.said)
+        forget_listeners(stack, stack.cleanChanged, stack.indexChanged, stack.undoTextChanged, stack.redoTextChanged)
+        for command in map(stack.command, range(stack.count())):
+            if isinstance(command, _Change):
+                command.say_again()
+        self._tracking = None
 
     def end_stroke(self) -> None:
         """A slider has been released, a box left: the next edit is a new one."""

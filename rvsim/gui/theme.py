@@ -8,6 +8,7 @@ from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
 from PySide6.QtWidgets import QApplication
 
 from rvsim.gui.preferences import Preferences
+from rvsim.language import language
 from rvsim.resources import resource
 
 
@@ -60,6 +61,8 @@ THEMES = {
 }
 
 _PRESENTATION_SCALE = 1.4
+# Before the system's own font, for languages that it may lack; these bring only their own letters and digits.
+_FAMILIES = {"ar": ("Noto Sans Arabic UI",)}
 
 _STYLE = """
 QMainWindow, QDialog {{ background: {window}; }}
@@ -147,7 +150,7 @@ def apply_theme(app: QApplication, name: str, *, presentation: bool = False) -> 
 
 def _prepare(app: QApplication, name: str, presentation: bool) -> Theme:
     """Style, colours and font, which widgets may measure while they are made; all but the style sheet."""
-    theme, asked = THEMES[name], f"{name} {presentation}"
+    theme, asked = THEMES[name], f"{name} {presentation} {language().code}"
     if app.property("prepared_theme") != asked:
         app.setProperty("prepared_theme", asked)
         # Undressed and dressed anew it is ready in a quarter of the time that another dress over this one takes.
@@ -215,7 +218,9 @@ def _font(app: QApplication, presentation: bool) -> QFont:
     if natural is None:
         natural = max(app.font().pointSizeF(), 9.0)
         app.setProperty("natural_point_size", natural)
+        app.setProperty("natural_family", app.font().family())
     font = number_font(app.font())
+    font.setFamilies([*_FAMILIES.get(language().code, ()), app.property("natural_family")])
     font.setPointSizeF(float(natural) * text_scale(presentation))
     return font
 

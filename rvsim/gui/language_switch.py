@@ -1,0 +1,69 @@
+"""Another language while rvsim runs: a window built anew takes the place of the old one, with all that it held."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, QTimer
+from PySide6.QtWidgets import QApplication
+
+from rvsim.gui.document_state import port_section, show_view, view_of
+from rvsim.gui.languages import system_language, wear_language
+from rvsim.gui.main_window import MainWindow
+from rvsim.gui.theme import prepare_theme, wear_theme
+from rvsim.language import LANGUAGES, language, tr
+
+
+class WindowKeeper(QObject):
+    """Keeps the one window of the application. When the preferences ask for another language, it makes another.
+
+    Attributes:
+        window: the one that is shown now.
+    """
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__()
+        self.window = window
+        self._listen()
+
+    def _listen(self) -> None:
+        self.window.preferences.changed.connect(self._on_preference)
+
+    def _on_preference(self, name: str) -> None:
+        if name == "language":
+            QTimer.singleShot(0, self, self._switch)  # the menu of the old window must close first
+
+    def _switch(self) -> None:
+        code = self.window.preferences["language"] or system_language()
+        if code != language().code:
+            self.window = _successor(self.window, code)
+            self._listen()
+            self.window.session.say(tr("rvsim speaks {language} now.", language=LANGUAGES[code].name))
+
+
+def _successor(old: MainWindow, code: str) -> MainWindow:
+    """A window in another language in the place of `old`: its session and undo, file, motion, arm, view and layout."""
+    app = QApplication.instance()
+    assert isinstance(app, QApplication)
+    old.setUpdatesEnabled(False)
+    old.motion.pause()
+    view, port, layout = view_of(old), port_section(old).settings, old.window_layout()
+    old.session.renew()
+    old.preferences.renew()
+    wear_language(app, code)
+    prepare_theme(old.preferences)
+    new = MainWindow(old.session, old.preferences, old.library, old.choice)
+    wear_theme(old.preferences)
+    new.dress_narrowest()
+    new.lay_out(*layout)
+    port_section(new).show_settings(port)
+    new.document.take_over(old.document)
+    new.tracker.track_quietly(view.tracked)
+    new.motion.take_over(old.motion)
+    new.device.take_over(old.device)
+    new.served.take_over(old.served)
+    show_view(new, view)
+    new.setVisible(old.isVisible())
+    old.document.autosave.close()
+    old.end()
+    old.hide()
+    old.deleteLater()
+    return new
