@@ -17,7 +17,7 @@ from monkey_sight import Deed, file_dialog, front
 from monkey_watch import Size, Watch, size_of
 from monkey_world import World
 from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QTimer
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication, QMessageBox, QWidget
 
 from rvsim.gui.app import build_window
 from rvsim.gui.main_window import MainWindow
@@ -79,6 +79,7 @@ class Life:
         preferences: Preferences | None = None,
     ) -> None:
         self.seed, self.events, self.world, self.watch, self.journal = seed, events, world, watch, journal
+        self._threads = set(threading.enumerate())
         self.window: MainWindow = build_window(preferences or Preferences(), robot=random.Random(seed).choice(ROBOTS))
         self.sizes: list[tuple[int, Size]] = []
         self.done = 0
@@ -96,6 +97,7 @@ class Life:
         Nothing may stay behind.
         """
         self.window.show()
+        self.window.document.begin()
         self.watch.rest()
         self._next(0.0)
         self._loop.exec()
@@ -197,7 +199,7 @@ class Life:
         began = time.perf_counter()
         self.world.fill_disk(False)
         self._start_something()
-        self.window.close()
+        self._close()
         if self.window.isVisible():
             self.watch.find("the window does not close")
         QCoreApplication.processEvents()
@@ -208,6 +210,13 @@ class Life:
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
         QCoreApplication.processEvents()
         self._await_threads(began)
+
+    def _close(self) -> None:
+        """As somebody does it who does not want to save."""
+        self.window.close()
+        question = self.window.findChild(QMessageBox, "unsaved_question")
+        if question is not None and question.isVisible():
+            question.button(QMessageBox.StandardButton.Discard).click()
 
     def _start_something(self) -> None:
         """Closing in the middle of any work."""
@@ -222,7 +231,7 @@ class Life:
             self.do(Deed("answer", (0.7,)))
 
     def _await_threads(self, began: float) -> None:
-        while threads := [t for t in threading.enumerate() if t.name.startswith("rvsim")]:
+        while threads := set(threading.enumerate()) - self._threads:
             if time.perf_counter() - began > _ENDING:
                 self.watch.find(f"threads that live on after the window was closed: {threads}")
                 return

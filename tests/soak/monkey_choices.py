@@ -206,7 +206,7 @@ class Choices:
     def _trigger(self) -> Deed:
         found = [action for action in self._play.window.findChildren(QAction) if can_be_reached(action)]
         names = sorted({action.objectName() for action in found}.difference(FORBIDDEN))
-        return Deed("trigger", (self._dice.choice(names),))
+        return Deed("trigger", (self._dice.choice(names),)) if names else Deed("wait", (0.01,))
 
     def _page(self) -> Deed:
         pages = [page.name for stack in self._play.window.findChildren(PageStack) for page in stack.pages]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ctypes
 import faulthandler
 import gc
+import os
 import sys
-import tempfile
 import threading
 import time
 import traceback
@@ -114,11 +114,16 @@ class Watch:
                 self._where = self._look()
 
     def _look(self) -> str:
-        """Where each thread is. No frame is touched: one that is held here would keep its painter from ending."""
-        with tempfile.TemporaryFile("w+", encoding="utf-8") as file:
-            faulthandler.dump_traceback(file)
-            file.seek(0)
-            return file.read()
+        """Where each thread is. No frame is touched: one that is held here would keep its painter from ending.
+
+        Through a pipe, for the disk may be full.
+        """
+        reading, writing = os.pipe()
+        os.set_blocking(writing, False)
+        faulthandler.dump_traceback(writing)
+        os.close(writing)
+        with open(reading, encoding="utf-8", errors="replace") as told:
+            return told.read()
 
     def percentile(self, share: float) -> Turn:
         """The turn than which that share of them was quicker, clock by clock."""
