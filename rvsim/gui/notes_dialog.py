@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLineEdit, QVBoxLayout, QWidget
 
 from rvsim.experiment import Experiment, Notes
 from rvsim.files.session.tables import LONGEST_NOTES
 from rvsim.gui.session import Session
+from rvsim.gui.text_box import TextBox
 from rvsim.gui.widgets import form
 from rvsim.language import tr
 
@@ -28,11 +29,12 @@ class NotesDialog(QDialog):
         self.student.setMaxLength(_LONGEST_NAME)
         self.student.textEdited.connect(lambda _: self._write(tr("Write the name"), "student"))
         self.student.editingFinished.connect(session.end_stroke)
-        self.text = QPlainTextEdit()
+        self.text = TextBox(longest=LONGEST_NOTES)
         self.text.setObjectName("notes_text")
         self.text.setAccessibleName(tr("Notes"))
         self.text.setTabChangesFocus(True)
         self.text.setPlaceholderText(tr("What you did, what you saw, what you conclude. It is saved with the session."))
+        self.text.left_out.connect(self._tell_limit)
         self.text.textChanged.connect(lambda: self._write(tr("Write notes"), "text"))
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.close)
@@ -49,9 +51,12 @@ class NotesDialog(QDialog):
     def _write(self, text: str, merge: str) -> None:
         written = self.text.toPlainText()
         if len(written) > LONGEST_NOTES:
-            self._session.warn(tr("Notes have at most {most} characters: the rest was left out.", most=LONGEST_NOTES))
+            self._tell_limit()
         notes = Notes(self.student.text(), written[:LONGEST_NOTES])
         self._session.edit(text, self._session.experiment.with_notes(notes), merge=f"notes {merge}")
+
+    def _tell_limit(self) -> None:
+        self._session.warn(tr("Notes have at most {most} characters: the rest was left out.", most=LONGEST_NOTES))
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         if after.notes is not before.notes:
