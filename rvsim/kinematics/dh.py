@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import SettingError, ShapeError
+from rvsim.language import tr
 from rvsim.robot import Convention, Robot
 from rvsim.spatial import rot_x, rot_z, transform
 from rvsim.spatial.arrays import FloatArray
@@ -37,7 +38,7 @@ def one_pose(robot: Robot, q: ArrayLike, name: str) -> FloatArray:
     if array.shape != (robot.dof,):
         raise ShapeError(name, f"({robot.dof},)", array.shape)
     if not np.isfinite(array).all():
-        raise SettingError(name, array.tolist(), "finite")
+        raise SettingError(name, array.tolist(), tr("finite"))
     return array
 
 

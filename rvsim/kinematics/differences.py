@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike
 
 from rvsim.errors import UnknownNameError
 from rvsim.kinematics.forward import forward_kinematics
-from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.spatial import rotation_vector, rpy_from_rotation, zyz_from_rotation
 from rvsim.spatial.arrays import FloatArray, floats
@@ -48,6 +47,6 @@ def _turned(before: FloatArray, after: FloatArray, rows: str) -> FloatArray:
         return rotation_vector(after @ np.swapaxes(before, -1, -2))
     readers: dict[str, Callable[[FloatArray], FloatArray]] = {"rpy": rpy_from_rotation, "zyz": zyz_from_rotation}
     if rows not in readers:
-        raise UnknownNameError(tr("rows of a Jacobian"), rows, ("base", "tool", "rpy", "zyz"))
+        raise UnknownNameError("rows of a Jacobian", rows, ("base", "tool", "rpy", "zyz"))
     change = readers[rows](after) - readers[rows](before)
     return np.asarray((change + np.pi) % (2.0 * np.pi) - np.pi)

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import UnknownNameError
-from rvsim.language import tr
 from rvsim.spatial.arrays import FloatArray, floats
 
 Part = Literal["linear", "angular"]
@@ -43,8 +42,8 @@ def ellipsoid(J: ArrayLike, part: Part = "linear", kind: Kind = "velocity") -> E
         UnknownNameError: no such part or kind.
     """
     _check("part", part, tuple(_ROWS))
-    _check(tr("kind of ellipsoid"), kind, _KINDS)
-    matrix = floats(tr("the transpose of J"), np.asarray(J, np.float64).T, 6).T
+    _check("kind of ellipsoid", kind, _KINDS)
+    matrix = floats("the transpose of J", np.asarray(J, np.float64).T, 6).T
     U, sigma, _ = np.linalg.svd(matrix[_ROWS[part]])
     values = np.zeros(3)
     values[: sigma.size] = sigma

@@ -122,7 +122,7 @@ def _euler(R: FloatArray, angles: Angles) -> _Euler:
         return _Euler(rpy[..., 2], np.hypot(R[..., 0, 0], R[..., 1, 0]), R[..., 2, 0], True)
     if angles == "zyz":
         return _Euler(zyz_from_rotation(R)[..., 0], np.hypot(R[..., 0, 2], R[..., 1, 2]), R[..., 2, 2], False)
-    raise UnknownNameError(tr("set of angles"), angles, ("rpy", "zyz"))
+    raise UnknownNameError("set of angles", angles, ("rpy", "zyz"))
 
 
 def tool_twist(robot: Robot, q: ArrayLike, qd: ArrayLike) -> FloatArray:
@@ -257,4 +257,4 @@ def _check(threshold: float, length: float) -> None:
     if not threshold >= 0.0:
         raise SettingError("threshold", threshold, tr("0 or more"))
     if not length > 0.0:
-        raise SettingError("length", length, "above 0")
+        raise SettingError("length", length, tr("above 0"))

@@ -36,6 +36,18 @@ FamilyPart = Literal["pose", "position"]
 
 ACTIVE = 1e-6  # of a term (of a length: in arm sizes): the family is active
 
+# What a family is called, by its name: in a sentence, and as a heading.
+_NAMES: Mapping[str, tuple[str, str]] = {
+    "elbow": (tr_later("elbow"), tr_later("Elbow")),
+    "shoulder": (tr_later("shoulder"), tr_later("Shoulder")),
+    "wrist": (tr_later("wrist"), tr_later("Wrist")),
+    "coaxial": (tr_later("coaxial"), tr_later("Coaxial")),
+    "stretched": (tr_later("stretched"), tr_later("Stretched")),
+    "tip on axis": (tr_later("tip on axis"), tr_later("Tip on axis")),
+    "zero extension": (tr_later("zero extension"), tr_later("Zero extension")),
+}
+KIND_TITLES: Mapping[FamilyKind, str] = {"boundary": tr_later("boundary"), "internal": tr_later("internal")}
+
 
 class Term(NamedTuple):
     """What is zero at the singularity: its symbol and formula in LaTeX, whether it is a length [m], and its value."""
@@ -54,7 +66,7 @@ class SingularFamily:
         name: for instance "elbow".
         kind: "boundary" where the arm is stretched or folded, at an edge of its reach; else "internal".
         part: "pose" where the Jacobian of the arm's own task loses rank, "position" where only the linear part does.
-        sentence: what has happened to the arm there, and what it loses.
+        meaning: what has happened to the arm there, and what it loses, in English; `sentence` says it.
         terms: one or two.
     """
 
@@ -62,13 +74,35 @@ class SingularFamily:
     name: str
     kind: FamilyKind
     part: FamilyPart
-    sentence: str
+    meaning: str
     terms: tuple[Term, ...]
 
     @property
     def title(self) -> str:
         """The name with what it is, for instance "stretched singularity of the position"."""
-        return tr("{name} singularity", name=self.name) + (tr(" of the position") if self.part == "position" else "")
+        if self.part == "position":
+            return tr("{name} singularity of the position", name=self.short_title)
+        return tr("{name} singularity", name=self.short_title)
+
+    @property
+    def short_title(self) -> str:
+        """The name in the language that is spoken."""
+        return tr(_NAMES[self.name][0])
+
+    @property
+    def heading(self) -> str:
+        """The same where nothing stands before it."""
+        return tr(_NAMES[self.name][1])
+
+    @property
+    def kind_title(self) -> str:
+        """The kind in the language that is spoken."""
+        return tr(KIND_TITLES[self.kind])
+
+    @property
+    def sentence(self) -> str:
+        """What has happened to the arm there, and what it loses."""
+        return tr(self.meaning)
 
     @property
     def formula(self) -> str:
@@ -124,9 +158,9 @@ class _Terms:
         self.d = [float(value) for value in chain.d]
         self.tip = [float(value) for value in chain.T_n_tool[:3, 3]]
 
-    def family(self, name: str, kind: FamilyKind, part: FamilyPart, sentence: str, *terms: Term) -> SingularFamily:
+    def family(self, name: str, kind: FamilyKind, part: FamilyPart, meaning: str, *terms: Term) -> SingularFamily:
         """One family of this arm."""
-        return SingularFamily(self.chain.robot, name, kind, part, sentence, terms)
+        return SingularFamily(self.chain.robot, name, kind, part, meaning, terms)
 
     def sine(self, joint: int, zero: float = 0.0) -> Term:
         """The sine of a joint (from 0), 0 where θ = zero."""
@@ -163,10 +197,23 @@ def _straight(a2: float, forearm: float) -> float:
     return 0.0 if a2 * forearm > 0.0 else math.pi
 
 
-_ELBOW = tr_later(
-    "The elbow is stretched or folded: the links are in line, and the {} cannot move along them. "
+_ELBOW_TO_WRIST = tr_later(
+    "The elbow is stretched or folded: the links are in line, and the wrist cannot move along them. "
     "It is an edge of the reach."
 )
+_ELBOW_TO_CENTRE = tr_later(
+    "The elbow is stretched or folded: the links are in line, and the wrist centre cannot move along them. "
+    "It is an edge of the reach."
+)
+_ELBOW_TO_TIP = tr_later(
+    "The elbow is stretched or folded: the links are in line, and the tip cannot move along them. "
+    "It is an edge of the reach."
+)
+_ELBOW_TO_AXIS = tr_later(
+    "The elbow is stretched or folded: the links are in line, and the tool axis cannot move along them. "
+    "It is an edge of the reach."
+)
+_TIP_OVER_AXIS = tr_later("The tip is over the base axis: joint 1 cannot move it sideways.")
 
 
 def _five_axis(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
@@ -175,15 +222,14 @@ def _five_axis(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
     r = terms.reach("r", _five_axis_reach(terms), [(a[1], 0.0), (a[2], 0.0), last])
     elbow = terms.sine(2, _straight(a[1], a[2]))
     tilt = Term(r"\cos\varphi", r"\cos\varphi", False, lambda q: np.sin(terms.chain.inner(q)[..., 1:4].sum(axis=-1)))
-    yield terms.family("elbow", "boundary", "pose", _ELBOW.format("wrist"), elbow)
+    yield terms.family("elbow", "boundary", "pose", _ELBOW_TO_WRIST, elbow)
     yield terms.family(
         "coaxial",
         "internal",
         "pose",
-        tr(
+        tr_later(
             "The tool stands upright on the base axis: the roll axis and the base axis are one, and joints 1 and 5 do "
-            "the "
-            "same."
+            "the same."
         ),
         r,
         tilt,
@@ -191,10 +237,10 @@ def _five_axis(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
     if not has_tip_on_roll_axis(terms.chain):
         return
     yield terms.family(
-        tr("tip on axis"),
+        "tip on axis",
         "internal",
         "position",
-        tr("The tip is on the base axis: joint 1 cannot move it sideways."),
+        tr_later("The tip is on the base axis: joint 1 cannot move it sideways."),
         r,
     )
     stretched = [elbow, terms.sine(3, -last[1])] if last[0] > 1e-9 else [elbow]
@@ -202,7 +248,7 @@ def _five_axis(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
         "stretched",
         "boundary",
         "position",
-        tr("Upper arm, forearm and hand are in line: the tip cannot move along them."),
+        tr_later("Upper arm, forearm and hand are in line: the tip cannot move along them."),
         *stretched,
     )
 
@@ -218,15 +264,14 @@ def _parallel_axes(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]
     a, d = terms.a, terms.d
     formula = r"a_2 c_2 + a_3 c_{23} + d_5 s_{234}" if terms.plain(1, 2, 3) and not (a[0] or a[3]) else ""
     links = [(a[1], 0.0), (a[2], 0.0), (math.hypot(a[3], d[4]), math.atan2(-d[4], a[3]))]
-    yield terms.family("elbow", "boundary", "pose", _ELBOW.format("wrist"), terms.sine(2, _straight(a[1], a[2])))
+    yield terms.family("elbow", "boundary", "pose", _ELBOW_TO_WRIST, terms.sine(2, _straight(a[1], a[2])))
     yield terms.family(
         "shoulder",
         "internal",
         "pose",
-        tr(
+        tr_later(
             "The point where axes 5 and 6 meet is beside or on the base axis, in the plane of axes 1 and 2: it cannot "
-            "move "
-            "along the shoulder's axis."
+            "move along the shoulder's axis."
         ),
         terms.reach("r_w", formula, links),
     )
@@ -234,10 +279,9 @@ def _parallel_axes(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]
         "wrist",
         "internal",
         "pose",
-        tr(
+        tr_later(
             "Axis 6 is parallel to axes 2, 3 and 4: it turns the tool as they do, and a turn about an axis square to "
-            "axes "
-            "5 and 6 is lost."
+            "axes 5 and 6 is lost."
         ),
         terms.sine(4),
     )
@@ -246,24 +290,21 @@ def _parallel_axes(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]
 def _spherical_wrist(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
     a, d = terms.a, terms.d
     forearm, lift = math.hypot(a[2], d[3]), math.atan2(-d[3], a[2])
-    yield terms.family(
-        "elbow", "boundary", "pose", _ELBOW.format(tr("wrist centre")), terms.sine(2, _straight(a[1], forearm) - lift)
-    )
+    yield terms.family("elbow", "boundary", "pose", _ELBOW_TO_CENTRE, terms.sine(2, _straight(a[1], forearm) - lift))
     yield terms.family(
         "shoulder",
         "internal",
         "pose",
-        tr("The wrist centre is over the base axis: joint 1 cannot move it sideways."),
+        tr_later("The wrist centre is over the base axis: joint 1 cannot move it sideways."),
         terms.reach("r_w", "", [(a[1], 0.0), (forearm, lift)]),
     )
     yield terms.family(
         "wrist",
         "internal",
         "pose",
-        tr(
+        tr_later(
             "Axes 4 and 6 are one line: both turn the tool in the same way, and a turn about an axis square to axes 5 "
-            "and "
-            "6 is lost."
+            "and 6 is lost."
         ),
         terms.sine(4),
     )
@@ -280,7 +321,7 @@ def _coaxial_extension(terms: _Terms) -> Iterator[SingularFamily]:
     """Only where axis 3 can come upon axis 1: upright, and beside the shoulder by a2 = ±a1."""
     side = math.copysign(1.0, -terms.a[0] * terms.a[1])
     half = Term(r"\sin\tfrac{1}{2}\theta_2", r"\sin\tfrac{1}{2}\theta_2", False, lambda q: _half(terms, q, side))
-    sentence = tr("The roll axis and the base axis are one: joints 1 and 3 do the same.")
+    sentence = tr_later("The roll axis and the base axis are one: joints 1 and 3 do the same.")
     yield terms.family("coaxial", "internal", "pose", sentence, half)
 
 
@@ -297,11 +338,15 @@ def _extension(terms: _Terms, part: FamilyPart, across: float, joint: int, fixed
         theta2 = terms.chain.inner(q)[..., 1]
         return np.asarray(terms.a[0] + across * np.cos(theta2) + length.of(q) * np.sin(theta2))
 
-    sentence = tr("The tip is on the base axis, or in the plane of axes 1 and 2: joint 1 cannot move it sideways.")
-    yield terms.family(tr("tip on axis"), "internal", part, sentence, Term("r", "r", True, out))
+    sentence = tr_later(
+        "The tip is on the base axis, or in the plane of axes 1 and 2: joint 1 cannot move it sideways."
+    )
+    yield terms.family("tip on axis", "internal", part, sentence, Term("r", "r", True, out))
     kind: FamilyKind = "internal" if is_zero(across) else "boundary"
-    sentence = tr("The arm is drawn in to its shoulder: joint 2 moves the tip only along the extension, or not at all.")
-    yield terms.family(tr("zero extension"), kind, part, sentence, length)
+    sentence = tr_later(
+        "The arm is drawn in to its shoulder: joint 2 moves the tip only along the extension, or not at all."
+    )
+    yield terms.family("zero extension", kind, part, sentence, length)
 
 
 def _spherical(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
@@ -312,25 +357,25 @@ def _spherical(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
 
 def _planar(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
     zero = _straight(terms.a[0], 1.0) - math.atan2(terms.tip[1], terms.tip[0])
-    yield terms.family("elbow", "boundary", "pose", _ELBOW.format("tip"), terms.sine(1, zero))
+    yield terms.family("elbow", "boundary", "pose", _ELBOW_TO_TIP, terms.sine(1, zero))
 
 
 def _scara(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
     theta = float(terms.chain.theta[2])
     link = complex(terms.a[1]) + terms.a[2] * complex(math.cos(theta), math.sin(theta))
     zero = _straight(terms.a[0], 1.0) - math.atan2(link.imag, link.real)
-    yield terms.family("elbow", "boundary", "pose", _ELBOW.format(tr("tool axis")), terms.sine(1, zero))
+    yield terms.family("elbow", "boundary", "pose", _ELBOW_TO_AXIS, terms.sine(1, zero))
 
 
 def _articulated(terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:
     forearm, lift = math.hypot(*terms.tip[:2]), math.atan2(terms.tip[1], terms.tip[0])
     zero = _straight(terms.a[1], 1.0) - lift
-    yield terms.family("elbow", "boundary", "pose", _ELBOW.format("tip"), terms.sine(2, zero))
+    yield terms.family("elbow", "boundary", "pose", _ELBOW_TO_TIP, terms.sine(2, zero))
     yield terms.family(
         "shoulder",
         "internal",
         "pose",
-        tr("The tip is over the base axis: joint 1 cannot move it sideways."),
+        _TIP_OVER_AXIS,
         terms.reach("r", "", [(terms.a[1], 0.0), (forearm, lift)]),
     )
 
@@ -339,8 +384,8 @@ def _cylindrical(terms: _Terms, form: ClosedForm) -> Iterator[SingularFamily]:
     assert isinstance(form, Cylindrical)
     fixed = float(form.origin[:2] @ form.outward[:2])
     out = Term("r", "r", True, lambda q: terms.chain.inner(q)[..., 2] + fixed)
-    sentence = tr("The tip is over the base axis: joint 1 cannot move it sideways.")
-    yield terms.family(tr("tip on axis"), "internal", "pose", sentence, out)
+    sentence = _TIP_OVER_AXIS
+    yield terms.family("tip on axis", "internal", "pose", sentence, out)
 
 
 def _none(_terms: _Terms, _form: ClosedForm) -> Iterator[SingularFamily]:

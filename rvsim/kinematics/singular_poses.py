@@ -46,11 +46,14 @@ def go_to_singularity(robot: Robot, family: SingularFamily | str, q: ArrayLike) 
     free = _nearest(robot, wanted, here, np.broadcast_to([-np.inf, np.inf], robot.limits.shape))
     if free is None:
         return SingularPose(
-            None, reason=tr("No pose of the {title} was found: this arm's lengths allow none.", title=wanted.title)
+            None,
+            reason=tr(
+                "No pose of the {singularity} was found: this arm's lengths allow none.", singularity=wanted.title
+            ),
         )
     outside = np.flatnonzero((free < robot.limits[:, 0]) | (free > robot.limits[:, 1]))
-    names = ", ".join(robot.joint_names[i] for i in outside)
-    reason = tr("The {title} lies outside the limits of {names}.", title=wanted.title, names=names)
+    names = tr(", ").join(tr(robot.joint_names[i]) for i in outside)
+    reason = tr("The {singularity} lies outside the limits of {joints}.", singularity=wanted.title, joints=names)
     return SingularPose(None, free, tuple(int(i) for i in outside), reason)
 
 
@@ -59,7 +62,7 @@ def _named(robot: Robot, name: str) -> SingularFamily:
     for family in families:
         if family.name == name:
             return family
-    raise UnknownNameError(tr("family of singular poses"), name, [family.name for family in families] or ["none"])
+    raise UnknownNameError("family of singular poses", name, [family.name for family in families] or ["none"])
 
 
 def _nearest(robot: Robot, family: SingularFamily, here: FloatArray, limits: FloatArray) -> FloatArray | None:

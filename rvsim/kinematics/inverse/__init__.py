@@ -6,6 +6,7 @@ from rvsim.kinematics.inverse.families import branch_labels
 from rvsim.kinematics.inverse.free_pitch import free_pitch_batch
 from rvsim.kinematics.inverse.result import DEFAULT_ORDER, ORDER_CRITERIA, Branch, Failure, InverseResult, Nearest
 from rvsim.kinematics.inverse.solve import inverse_branches, inverse_kinematics, inverse_tasks
+from rvsim.kinematics.inverse.words import branch_title
 
 __all__ = [
     "DEFAULT_ORDER",
@@ -16,6 +17,7 @@ __all__ = [
     "LimitCopies",
     "Nearest",
     "branch_labels",
+    "branch_title",
     "free_pitch_batch",
     "inverse_branches",
     "inverse_kinematics",

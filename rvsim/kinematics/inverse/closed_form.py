@@ -58,19 +58,23 @@ def is_zero(value: float) -> bool:
 
 def right_angle(chain: Chain, i: int) -> Condition:
     """Axes i and i + 1 (from 0) at a right angle."""
-    return chain.square(i), tr("axes {i} and {i2} must be at a right angle.", i=i + 1, i2=i + 2)
+    return chain.square(i), tr("axes {first} and {second} must be at a right angle.", first=i + 1, second=i + 2)
 
 
 def parallel(chain: Chain, i: int) -> Condition:
     """Axes i and i + 1 (from 0) parallel."""
-    return chain.parallel(i), tr("axes {i} and {i2} must be parallel.", i=i + 1, i2=i + 2)
+    return chain.parallel(i), tr("axes {first} and {second} must be parallel.", first=i + 1, second=i + 2)
 
 
 def intersecting(chain: Chain, i: int) -> Condition:
     """No distance a between axes i and i + 1 (from 0)."""
-    return is_zero(chain.a[i]), tr("axes {i} and {i2} must meet: no length a between them.", i=i + 1, i2=i + 2)
+    return is_zero(chain.a[i]), tr(
+        "axes {first} and {second} must meet: no length a between them.", first=i + 1, second=i + 2
+    )
 
 
 def long_enough(chain: Chain, i: int) -> Condition:
     """A link i (from 0) of some length."""
-    return not is_zero(chain.a[i]), tr("the link between axes {i} and {i2} must have a length a.", i=i + 1, i2=i + 2)
+    return not is_zero(chain.a[i]), tr(
+        "the link between axes {first} and {second} must have a length a.", first=i + 1, second=i + 2
+    )

@@ -6,7 +6,8 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from rvsim.kinematics.inverse.copies import LIMIT_TOLERANCE
-from rvsim.language import tr
+from rvsim.kinematics.inverse.words import branch_title
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Joint
 
 if TYPE_CHECKING:
@@ -33,11 +34,11 @@ class Scale(NamedTuple):
 
     def _text(self, value: float, decimals: int) -> str:
         number = round(self.factor * value, decimals) + 0.0  # −0.0 becomes 0.0
-        return f"{number:.{decimals}f}{self.suffix}".replace("-", "−")
+        return f"{number:.{decimals}f}{tr(self.suffix)}".replace("-", "−")
 
 
 DEGREES, RADIANS = Scale(180.0 / math.pi, 1, "°"), Scale(1.0, 3, " rad")
-MILLIMETRES, METRES, OWN_UNITS = Scale(1e3, 1, " mm"), Scale(1.0, 4, " m"), Scale(1.0, 3, " units")
+MILLIMETRES, METRES, OWN_UNITS = Scale(1e3, 1, " mm"), Scale(1.0, 4, " m"), Scale(1.0, 3, tr_later(" units"))
 
 
 def explain(failure: Failure, angle: Scale = DEGREES, length: Scale = MILLIMETRES) -> str:
@@ -64,17 +65,18 @@ def _explain_limits(failure: Failure, angle: Scale, length: Scale) -> str:
         )
         if margin < -LIMIT_TOLERANCE
     ]
-    which = (
-        tr("The only branch is outside the limits")
-        if count == 1
-        else tr("All {count} branches are outside the limits", count=count)
+    return trn(
+        "The only branch is outside the limits; nearest is “{branch}”: {broken}.",
+        "All {n} branches are outside the limits; nearest is “{branch}”: {broken}.",
+        count,
+        branch=branch_title(branch.label),
+        broken=tr("; ").join(broken),
     )
-    return tr("{which}; nearest is “{label}”: {broken}.", which=which, label=branch.label, broken="; ".join(broken))
 
 
 def _explain_joint(joint: Joint, value: float, scale: Scale) -> str:
     needed, stop = scale.apart(value, broken_limit(joint, value))
-    return tr("{name} needs {needed}, stops at {stop}", name=joint.name, needed=needed, stop=stop)
+    return tr("{joint} needs {needed}, stops at {stop}", joint=tr(joint.name), needed=needed, stop=stop)
 
 
 def broken_limit(joint: Joint, value: float) -> float:

@@ -8,8 +8,7 @@ from rvsim.kinematics.inverse.chain import Chain
 from rvsim.kinematics.inverse.closed_form import is_zero
 from rvsim.kinematics.inverse.elbow import COSINE_TOLERANCE, empty_rows, erase
 from rvsim.kinematics.inverse.waist import solve_waist
-from rvsim.kinematics.inverse.words import combine, side_names
-from rvsim.language import tr
+from rvsim.kinematics.inverse.words import EXTENSION, combine, side_names
 from rvsim.spatial.arrays import FloatArray
 
 AT_SHOULDER = 1e-10  # of the size: here joint 2 is free
@@ -17,7 +16,7 @@ AT_SHOULDER = 1e-10  # of the size: here joint 2 is free
 
 def extension_labels(chain: Chain) -> tuple[str, ...]:
     """Two sides, and on each the prismatic joint ahead of the shoulder or behind it."""
-    return combine(side_names(chain), (tr("extended ahead"), tr("extended behind")))
+    return combine(side_names(chain), EXTENSION)
 
 
 def solve_extension(

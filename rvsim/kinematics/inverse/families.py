@@ -43,7 +43,7 @@ def closed_form(robot: Robot) -> ClosedForm:
             failure = family.failure(chain)
             if not failure:
                 return family(chain)
-            failures.append(f"as {_article(family.title)}, {failure}")
+            failures.append(_not_as(family.title, failure))
     known = ", ".join(sorted({family.joints for family in FAMILIES}))
     raise NoClosedFormError(
         robot.name,
@@ -51,8 +51,10 @@ def closed_form(robot: Robot) -> ClosedForm:
     )
 
 
-def _article(title: str) -> str:
-    return f"an {title}" if title[0] in "aeiou" else f"a {title}"
+def _not_as(title: str, failure: str) -> str:
+    if title[0] in "aeiou":
+        return tr("as an {family}, {failure}", family=tr(title), failure=failure)
+    return tr("as a {family}, {failure}", family=tr(title), failure=failure)
 
 
 def branch_labels(robot: Robot) -> tuple[str, ...]:
@@ -72,6 +74,6 @@ def five_axis(form: ClosedForm, purpose: str) -> FiveAxis:
     """
     if not isinstance(form, FiveAxis):
         raise NoClosedFormError(
-            form.chain.robot.name, tr("{purpose} only for a {title}.", purpose=purpose, title=FiveAxis.title)
+            form.chain.robot.name, tr("{purpose} only for a {family}.", purpose=purpose, family=tr(FiveAxis.title))
         )
     return form

@@ -33,7 +33,7 @@ def free_pitch_batch(robot: Robot, p: ArrayLike, pitches: ArrayLike, roll: float
         np.asarray(pitches, dtype=np.float64),
     )
     if places.ndim != 2 or angles.ndim != 1:
-        raise ShapeError(tr("p and pitches"), "(m, 3) and (k,)", (*places.shape, *angles.shape))
+        raise ShapeError("p and pitches", "(m, 3) and (k,)", (*places.shape, *angles.shape))
     return free_pitches(form, places, angles, roll)
 
 

@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 
 from rvsim.errors import UnknownNameError
 from rvsim.kinematics.inverse.explain import explain
-from rvsim.language import tr, tr_later
+from rvsim.language import tr_later
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray
 
@@ -83,7 +83,7 @@ class Failure:
         """(n,) the joints for it [rad, m]."""
         return self.nearest.q
 
-    @cached_property
+    @property
     def reason(self) -> str:
         """One sentence, with its numbers in degrees and millimetres."""
         return explain(self)
@@ -103,13 +103,13 @@ class InverseResult:
 
 
 # The rule that puts branches in order is a value: the criteria's names, the most important first.
-DEFAULT_ORDER = (tr_later("within limits"), tr_later("least motion"), tr_later("largest margin"))
+DEFAULT_ORDER = ("within limits", "least motion", "largest margin")
 _ROUNDING = 9  # decimals: differences below this are no reason to prefer a branch
 ORDER_CRITERIA: dict[str, Callable[[Branch], float]] = {
-    "within limits": lambda branch: 0.0 if branch.within_limits else 1.0,
-    "least motion": lambda branch: round(branch.distance, _ROUNDING),
-    "largest margin": lambda branch: -round(float(branch.limit_margin.min()), _ROUNDING),
-    "most manipulable": lambda branch: -round(branch.manipulability, _ROUNDING),
+    tr_later("within limits"): lambda branch: 0.0 if branch.within_limits else 1.0,
+    tr_later("least motion"): lambda branch: round(branch.distance, _ROUNDING),
+    tr_later("largest margin"): lambda branch: -round(float(branch.limit_margin.min()), _ROUNDING),
+    tr_later("most manipulable"): lambda branch: -round(branch.manipulability, _ROUNDING),
 }
 
 
@@ -121,5 +121,5 @@ def in_order(branches: Sequence[Branch], order: Sequence[str]) -> tuple[Branch, 
     """
     for name in order:
         if name not in ORDER_CRITERIA:
-            raise UnknownNameError(tr("order criterion"), name, tuple(ORDER_CRITERIA))
+            raise UnknownNameError("order criterion", name, tuple(ORDER_CRITERIA))
     return tuple(sorted(branches, key=lambda branch: tuple(ORDER_CRITERIA[name](branch) for name in order)))

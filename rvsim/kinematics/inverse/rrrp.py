@@ -24,6 +24,7 @@ from rvsim.kinematics.inverse.closed_form import (
 from rvsim.kinematics.inverse.elbow import empty_rows, erase
 from rvsim.kinematics.inverse.extension import extension_labels, solve_extension
 from rvsim.kinematics.inverse.five_axis import FEASIBLE, tool_plane
+from rvsim.kinematics.inverse.words import ONLY
 from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
@@ -33,7 +34,7 @@ class RollAndExtend(ClosedForm):
 
     title = tr_later("RRRP arm whose prismatic joint lies on the roll axis")
     joints = "RRRP"
-    labels = (tr_later("the only solution"),)
+    labels = (ONLY,)
 
     @classmethod
     def conditions(cls, chain: Chain) -> Iterable[Condition]:

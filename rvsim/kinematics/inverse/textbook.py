@@ -16,7 +16,7 @@ from rvsim.kinematics.inverse.elbow import empty_rows, erase, solve_elbow
 from rvsim.kinematics.inverse.extension import extension_labels, solve_extension
 from rvsim.kinematics.inverse.regional import Regional, regional_conditions
 from rvsim.kinematics.inverse.waist import solve_waist
-from rvsim.kinematics.inverse.words import ELBOW, combine, side_names
+from rvsim.kinematics.inverse.words import ELBOW, ELBOW_SIDES, EXTENSION, FACING, ONLY, combine, side_names
 from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
@@ -114,7 +114,7 @@ class Scara(ClosedForm):
     joints = "RRPR"
     task = "position+yaw"
     place_only = True
-    labels = (tr_later("elbow left"), tr_later("elbow right"))
+    labels = ELBOW_SIDES
 
     @classmethod
     def conditions(cls, chain: Chain) -> Iterable[Condition]:
@@ -172,10 +172,7 @@ class Cylindrical(ClosedForm):
         super().__init__(chain)
         self.origin = chain.place((0.0, 0.0, 0.0))
         self.outward = chain.place((0.0, 0.0, 1.0)) - self.origin
-        self.labels = tuple(
-            tr("{side}, extended {way}", side=side, way=way)
-            for side, way in (("facing", "ahead"), (tr("turned away"), "behind"))
-        )
+        self.labels = tuple(", ".join(words) for words in zip(FACING, EXTENSION, strict=True))
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
         """What stands across the extension is the plane's offset; the rest is a waist."""
@@ -201,7 +198,7 @@ class Cartesian(ClosedForm):
     joints = "PPP"
     task = "position"
     place_only = True
-    labels = (tr_later("the only solution"),)
+    labels = (ONLY,)
 
     @classmethod
     def conditions(cls, chain: Chain) -> Iterable[Condition]:

@@ -17,8 +17,8 @@ from rvsim.kinematics.inverse.chain import Chain, wrap
 from rvsim.kinematics.inverse.closed_form import ClosedForm, Condition, intersecting, long_enough, parallel, right_angle
 from rvsim.kinematics.inverse.elbow import Mask, elbow_up, empty_rows, solve_elbow
 from rvsim.kinematics.inverse.waist import Side, solve_waist
-from rvsim.kinematics.inverse.words import ELBOW, combine, side_names, wrist_names
-from rvsim.language import tr, tr_later
+from rvsim.kinematics.inverse.words import ELBOW, SHOULDERS, combine, side_names, wrist_names
+from rvsim.language import tr_later
 from rvsim.spatial.arrays import FloatArray
 
 Rows = tuple[NDArray[np.intp], ...]
@@ -61,9 +61,7 @@ class ParallelAxes(ClosedForm):
         self.offset = float(chain.d[1:4].sum())
         self.up = elbow_up(self.a2, self.a3)
         self._up = np.array([self.up, -self.up])[:, None, None]
-        self.labels = combine(
-            side_names(chain, (tr("left shoulder"), tr("right shoulder"))), wrist_names(chain, 4), ELBOW
-        )
+        self.labels = combine(side_names(chain, SHOULDERS), wrist_names(chain, 4), ELBOW)
 
     def solve(self, S: FloatArray, free: FloatArray) -> FloatArray:
         """Shoulder, then wrist, then elbow; a numpy call works on all sides, wrists and elbows at once."""

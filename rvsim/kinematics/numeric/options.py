@@ -64,7 +64,7 @@ class SolverOptions:
     def __post_init__(self) -> None:
         for name in _POSITIVE:
             if not getattr(self, name) > 0.0:
-                raise SettingError(name, getattr(self, name), "above 0")
+                raise SettingError(name, getattr(self, name), tr("above 0"))
         if len(self.weights) != 6 or not all(0.0 <= weight < math.inf for weight in self.weights):
             raise SettingError("weights", self.weights, tr("six numbers of at least 0"))
 
@@ -81,7 +81,7 @@ def checked_task(task: str) -> Task:
     for known in TASKS:
         if task == known:
             return known
-    raise UnknownNameError(tr("numeric task"), task, TASKS)
+    raise UnknownNameError("numeric task", task, TASKS)
 
 
 def checked_solver(solver: str) -> Solver:
@@ -93,4 +93,4 @@ def checked_solver(solver: str) -> Solver:
     for known in SOLVERS:
         if solver == known:
             return known
-    raise UnknownNameError(tr("numeric solver"), solver, SOLVERS)
+    raise UnknownNameError("numeric solver", solver, SOLVERS)

@@ -33,8 +33,7 @@ AS_IN_SOURCE_000 = Preset(
     tr_later("As in source 000"),
     tr_later(
         "Source 000, Program 8: weights 0.1 0.1 0.1 1.2 1.2 1, the orientation first, and a solution tolerance of "
-        "0.01. "
-        "Its lengths are decimetres, so 0.01 allows up to 0.1 rad and 1 mm."
+        "0.01. Its lengths are decimetres, so 0.01 allows up to 0.1 rad and 1 mm."
     ),
     "lm",
     "pose",
@@ -56,8 +55,7 @@ AS_IN_SOURCE_002 = Preset(
     tr_later("As in source 002"),
     tr_later(
         "Source 002, code 2: the pseudoinverse, position only, 300 iterations, 1 mm, no limits and no restarts. The "
-        "guess "
-        "is 15 20 25 10 15 12 degrees, times 0.0175."
+        "guess is 15 20 25 10 15 12 degrees, times 0.0175."
     ),
     "newton",
     "position",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.spatial.arrays import FloatArray
 
 Kind = Literal["solved", "iterations", "time", "gradient", "step", "change", "progress"]
@@ -70,12 +70,11 @@ class NumericResult:
 def reason_in_words(kind: Kind, best: Kind, restarts: int) -> str:
     """The sentence for a search that ended by one rule, whose best try ended by another."""
     if kind == "solved" or not restarts:
-        return _WORDS[kind]
-    last = "" if best == kind else tr(" The best try ended so: {words}", words=_WORDS[best])
-    return tr(
-        "{words} {restarts} random restart{value} found no solution.{last}",
-        words=_WORDS[kind],
-        restarts=restarts,
-        value="s" * (restarts > 1),
-        last=last,
-    )
+        return tr(_WORDS[kind])
+    parts = [
+        tr(_WORDS[kind]),
+        trn("{n} random restart found no solution.", "{n} random restarts found no solution.", restarts),
+    ]
+    if best != kind:
+        parts.append(tr("The best try ended so: {reason}", reason=tr(_WORDS[best])))
+    return " ".join(parts)

@@ -29,9 +29,9 @@ def _waist_000(figures: Figures, k: Numbers) -> str:
         return ""
     return tr(
         "Source 000, (10), prints atan2(x, −y), its y counted the other way round: {waist}. "
-        "In the sense of the DH table it is {angle}.",
+        "In the sense of the DH table it is {right}.",
         waist=waist,
-        angle=_angle(figures, k["psi"]),
+        right=_angle(figures, k["psi"]),
     )
 
 
@@ -40,28 +40,29 @@ def _links_000(figures: Figures, k: Numbers) -> str:
     triangle = printed.Triangle(k["w"], k["u"], k["a2"], k["a3"])
     gamma = printed.gamma_000(triangle)
     second, third = printed.shoulder_000(triangle, k["q2"], gamma), printed.elbow_000(triangle, k["q2"])
-    return (
+    sentences = (
         tr(
-            "Source 000, (14), prints γ = {text}; right is {text2}: α² + β² is added. ",
-            text=figures.text(gamma, "length"),
-            text2=figures.text(printed.gamma(triangle), "length"),
-        )
-        + _shoulder_000(figures, second, k["q2"])
-        + tr(
-            "(15) has atan2's arguments exchanged: {angle}, not {angle2}.",
-            angle=_angle(figures, third),
-            angle2=_angle(figures, k["q3"]),
-        )
+            "Source 000, (14), prints γ = {printed}; right is {right}: α² + β² is added.",
+            printed=figures.text(gamma, "length"),
+            right=figures.text(printed.gamma(triangle), "length"),
+        ),
+        _shoulder_000(figures, second, k["q2"]),
+        tr(
+            "(15) has atan2's arguments exchanged: {printed}, not {right}.",
+            printed=_angle(figures, third),
+            right=_angle(figures, k["q3"]),
+        ),
     )
+    return " ".join(sentences)
 
 
 def _shoulder_000(figures: Figures, printed_q2: float, q2: float) -> str:
     if math.isnan(printed_q2):
-        return tr("With it the root is not real. ")
+        return tr("With it the root is not real.")
     return tr(
-        "With its atan2(α, β) θ₂ would be {angle}, not {angle2}. ",
-        angle=_angle(figures, printed_q2),
-        angle2=_angle(figures, q2),
+        "With its atan2(α, β) θ₂ would be {printed}, not {right}.",
+        printed=_angle(figures, printed_q2),
+        right=_angle(figures, q2),
     )
 
 
@@ -69,10 +70,9 @@ def _pitch_000(figures: Figures, k: Numbers) -> str:
     fourth = k["phi"] - k["q2"] - k["q3"]
     wrist, right = _angle(figures, fourth), _angle(figures, fourth + 0.5 * math.pi)
     return tr(
-        "Source 000, (16) and (17), call the sum φ but mean the DH angle, which is the joint's plus "
-        "{value}: with the pitch as φ it would "
-        "give {wrist} where the DH angle is {right}.",
-        value="90°" if figures.in_degrees else "π/2",
+        "Source 000, (16) and (17), call the sum φ but mean the DH angle, which is the joint's plus {quarter_turn}: "
+        "with the pitch as φ it would give {wrist} where the DH angle is {right}.",
+        quarter_turn="90°" if figures.in_degrees else "π/2",
         wrist=wrist,
         right=right,
     )
@@ -80,8 +80,8 @@ def _pitch_000(figures: Figures, k: Numbers) -> str:
 
 def _centre_001(figures: Figures, k: Numbers) -> str:
     return tr(
-        "Source 001, (5), prints P6 = P5 = P4. Only P5 = P4 holds; P6 is {text} away from them.",
-        text=figures.text(k["d6"], "length"),
+        "Source 001, (5), prints P6 = P5 = P4. Only P5 = P4 holds; P6 is {distance} away from them.",
+        distance=figures.text(k["d6"], "length"),
     )
 
 
@@ -91,16 +91,15 @@ def _wrist_004(figures: Figures, k: Numbers) -> str:
     text = figures.text
     note = tr(
         "Source 004, (3.26), prints d₅ cos ψ where d₅ sin ψ belongs (its ψ is our φ): the height would be "
-        "{text}, not {text2}.",
-        text=text(height, "length"),
-        text2=text(k["z"] - k["d1"] - k["d5"] * s, "length"),
+        "{printed}, not {right}.",
+        printed=text(height, "length"),
+        right=text(k["z"] - k["d1"] - k["d5"] * s, "length"),
     )
-    negative = tr(" (here negative)") if k["rho"] ** 2 < k["d5"] * c else ""
-    return tr(
-        "{note} (3.29) draws the root over x² + y² − d₅ cos ψ{negative}; it ends before − d₅ cos ψ.",
-        note=note,
-        negative=negative,
-    )
+    if k["rho"] ** 2 < k["d5"] * c:
+        root = tr("(3.29) draws the root over x² + y² − d₅ cos ψ (here negative); it ends before − d₅ cos ψ.")
+    else:
+        root = tr("(3.29) draws the root over x² + y² − d₅ cos ψ; it ends before − d₅ cos ψ.")
+    return f"{note} {root}"
 
 
 def _links_004(figures: Figures, k: Numbers) -> str:
@@ -110,14 +109,12 @@ def _links_004(figures: Figures, k: Numbers) -> str:
     beta = math.acos(max(-1.0, min(1.0, ratio)))
     third = printed.elbow_004(square, upper, fore)
     return tr(
-        "Source 004, (3.22), prints β = atan2(s² + a₃² − a₄², 2a₃s) = "
-        "{angle}; right is the arccos of their ratio, "
-        "{angle2}. (3.23) in the same way prints θ₃ = {angle3}, "
-        "not {angle4}.",
-        angle=_angle(figures, printed.beta_004(square, upper, fore)),
-        angle2=_angle(figures, beta),
-        angle3=_angle(figures, third),
-        angle4=_angle(figures, k["q3"]),
+        "Source 004, (3.22), prints β = atan2(s² + a₃² − a₄², 2a₃s) = {printed_beta}; right is the arccos of their "
+        "ratio, {right_beta}. (3.23) in the same way prints θ₃ = {printed_theta}, not {right_theta}.",
+        printed_beta=_angle(figures, printed.beta_004(square, upper, fore)),
+        right_beta=_angle(figures, beta),
+        printed_theta=_angle(figures, third),
+        right_theta=_angle(figures, k["q3"]),
     )
 
 
@@ -126,10 +123,10 @@ def _waist_003(figures: Figures, k: Numbers) -> str:
     if math.isnan(waist) or _angle(figures, waist) == _angle(figures, k["psi"]):
         return ""
     return tr(
-        "Source 003 prints θ₁ = arctan(Py/Px) = {angle}; it must be atan2(Py−l₂, Px−l₁) = "
-        "{angle2}, as its program has it.",
-        angle=_angle(figures, waist),
-        angle2=_angle(figures, k["psi"]),
+        "Source 003 prints θ₁ = arctan(Py/Px) = {printed}; it must be atan2(Py−l₂, Px−l₁) = {right}, as its program "
+        "has it.",
+        printed=_angle(figures, waist),
+        right=_angle(figures, k["psi"]),
     )
 
 
@@ -139,9 +136,9 @@ def _roll_003(figures: Figures, k: Numbers) -> str:
     if roll == _angle(figures, k["q3"]):
         return ""
     return tr(
-        "Source 003's program takes cosd and sind of a θ₁ in radians: its θ₃ would be {roll}, not {angle}.",
-        roll=roll,
-        angle=_angle(figures, k["q3"]),
+        "Source 003's program takes cosd and sind of a θ₁ in radians: its θ₃ would be {printed}, not {right}.",
+        printed=roll,
+        right=_angle(figures, k["q3"]),
     )
 
 

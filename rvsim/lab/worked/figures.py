@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from rvsim.lab.sentences import Units
 from rvsim.lab.worked.values import Equation
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
 Kind = Literal["angle", "length", "number"]
@@ -44,7 +45,7 @@ _STYLES = {
     "rad": _Style(1.0, "radians", "\\,\\mathrm{rad}", " rad"),
     "mm": _Style(1e3, "millimetres", "\\,\\mathrm{mm}", " mm"),
     "m": _Style(1.0, "metres", "\\,\\mathrm{m}", " m"),
-    "units": _Style(1.0, "units", "", " units"),
+    "units": _Style(1.0, "units", "", tr_later(" units")),
     "number": _Style(1.0, "number", "", ""),
 }
 
@@ -80,7 +81,7 @@ class Figures:
 
     def text(self, value: float, kind: Kind) -> str:
         """A number with its unit for a sentence."""
-        return self._bare(value, kind).replace("-", "\u2212") + self._styles[kind].word
+        return self._bare(value, kind).replace("-", "\u2212") + tr(self._styles[kind].word)
 
     def constant(self, value: float, kind: Kind) -> str:
         """A positive number of the arm's table, as short as it can be said: 90°, π/2."""

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from rvsim.kinematics.inverse.five_axis import FEASIBLE, tool_plane
+from rvsim.kinematics.inverse.words import SIDES
 from rvsim.lab.worked.figures import Quantity
 from rvsim.lab.worked.links import Fold, Links, elbow_names, fold_equations, sum_equations, write_links
 from rvsim.lab.worked.notebook import Equations, Notebook
@@ -24,7 +25,7 @@ def solve_five_axis(book: Notebook, T: FloatArray) -> None:
         _write_side(book, S, side)
 
 
-def write_plane(book: Notebook, S: FloatArray, names: tuple[str, str] = ("front", "back")) -> tuple[Side, ...]:
+def write_plane(book: Notebook, S: FloatArray, names: tuple[str, str] = SIDES) -> tuple[Side, ...]:
     """The vertical plane through the base axis that holds the tip and the tool axis: two sides, or none."""
     x, y, _ = place(S)
     ax, ay, _ = column(S, "a")
@@ -40,7 +41,7 @@ def write_plane(book: Notebook, S: FloatArray, names: tuple[str, str] = ("front"
     equations, text = _azimuth(book, psi, (x, y), (ax, ay), by_tip=by_tip)
     if plane.infeasible[0]:
         lean = math.asin(min(1.0, abs(across)))
-        failure = _LEANS.format(lean=book.figures.text(lean, "angle"))
+        failure = tr(_LEANS, lean=book.figures.text(lean, "angle"))
         if abs(across) <= FEASIBLE:
             failure = tr("No solution: the tip lies beside the vertical plane of the tool axis.")
         book.step((), tr("Waist"), text, *equations, failure=failure)
@@ -65,7 +66,7 @@ _BY_TOOL = tr_later(
 )
 _ANY = tr_later(
     "The tip is on the base axis and the tool axis is vertical: any q₁ will do, and q₅ turns against it. "
-    "Here {} is taken."
+    "Here {angle} is taken."
 )
 
 
@@ -82,12 +83,12 @@ def _azimuth(
             Quantity("\\cos\\psi", math.cos(psi.value), "number"),
         )
         leaning = book.figures.equation(side, "<ax,>*<s>-<ay>*<c>", ax=ax, ay=ay, s=s, c=c)
-        return (azimuth, leaning), _WAIST
+        return (azimuth, leaning), tr(_WAIST)
     if math.hypot(ax.value, ay.value) <= 1e-10:
-        return (), _ANY.format(book.figures.text(psi.value, "angle"))
+        return (), tr(_ANY, angle=book.figures.text(psi.value, "angle"))
     same = math.cos(psi.value) * ax.value + math.sin(psi.value) * ay.value > 0.0
     template = "\\operatorname{atan2}(<ay,>,\\,<ax,>)" if same else "\\operatorname{atan2}(-<ay>,\\,-<ax>)"
-    return (book.figures.equation(psi, template, ax=ax, ay=ay),), _BY_TOOL
+    return (book.figures.equation(psi, template, ax=ax, ay=ay),), tr(_BY_TOOL)
 
 
 # --- one side --------------------------------------------------------------------------------------------------------
@@ -95,9 +96,10 @@ def _azimuth(
 
 def _write_side(book: Notebook, S: FloatArray, side: Side) -> None:
     r, phi, equations = plane_coordinates(book, S, side)
-    text = tr(
-        "{value}: how far out the tip is, and the pitch of the tool axis.",
-        value=tr("Facing it") if side.turned == 0 else tr("Turned away"),
+    text = (
+        tr("Turned away: how far out the tip is, and the pitch of the tool axis.")
+        if side.turned
+        else tr("Facing it: how far out the tip is, and the pitch of the tool axis.")
     )
     book.step(side.path, tr("Into the arm's plane"), text, *equations)
     u, w = _write_wrist(book, S, side, r, phi)
@@ -175,13 +177,13 @@ def _write_fold(
     a2, a3 = links.first.value, links.second.value
     numbers = {"u": u.value, "w": w.value, "a2": a2, "a3": a3, "q2": fold.theta, "q3": fold.next_theta}
     elbow = fold_equations(book, fold, u, w, links)
-    book.step(fold.path, tr("Elbow and shoulder"), _FOLD, *elbow, erratum=("links", numbers))
+    book.step(fold.path, tr("Elbow and shoulder"), tr(_FOLD), *elbow, erratum=("links", numbers))
     constant = 0.5 * math.pi * float(book.rows.turn[3])
     pitch = sum_equations(book, phi, (theta2, theta3), 3, constant)
     numbers |= {"phi": phi.value}
-    book.step(fold.path, tr("Wrist pitch"), _PITCH, *pitch, erratum=("pitch", numbers))
+    book.step(fold.path, tr("Wrist pitch"), tr(_PITCH), *pitch, erratum=("pitch", numbers))
     theta5, roll = roll_equations(book, S, side, 4, float(book.rows.turn[3] * book.rows.turn[0]))
-    book.step(fold.path, tr("Roll"), _ROLL, *roll)
+    book.step(fold.path, tr("Roll"), tr(_ROLL), *roll)
     theta4 = phi.value + constant - fold.theta - fold.next_theta
     book.solved(fold.path, side.theta1, fold.theta, fold.next_theta, theta4, theta5)
 

@@ -50,12 +50,14 @@ def write_links(book: Notebook, path: Path, u: Quantity, w: Quantity, links: Lin
     law = Quantity(f"C = \\cos {_bent(book, links)}", cosine, "number")
     equation = book.figures.equation(law, _LAW, u=u, w=w, a2=a2, a3=a3)
     if elbow.missing[0]:
-        book.step(path, tr("Elbow"), _TRIANGLE, equation, failure=_out_of_ring(book, math.sqrt(square), a2, a3, cosine))
+        book.step(
+            path, tr("Elbow"), tr(_TRIANGLE), equation, failure=_out_of_ring(book, math.sqrt(square), a2, a3, cosine)
+        )
         return ()
     bend = float(elbow.bend[0])
     straight = min(bend, math.pi - bend) < _STRAIGHT
     order = sorted(names, key=lambda sign: (names[sign] == ELBOW[1], -sign))
-    text = _TRIANGLE + (_ONE_POSE if straight else _EITHER)
+    text = f"{tr(_TRIANGLE)} {tr(_ONE_POSE if straight else _EITHER)}"
     book.step(path, tr("Elbow: two signs"), text, equation, choices=tuple(names[sign] for sign in order))
     leaning = lift.value if lift else 0.0
     direction, lean = float(elbow.direction[0]), float(elbow.lean[0])
@@ -97,7 +99,7 @@ def sum_equations(
     rows = book.rows
     theta = total.value + constant - sum(part.value for part in parts)
     others = "".join(f"-<part{k}>" for k in range(len(parts)))
-    named = {tr("part{k}", k=k): part for k, part in enumerate(parts)} | {"total": total}
+    named = {f"part{k}": part for k, part in enumerate(parts)} | {"total": total}
     rest = math.remainder(constant - float(rows.offset[last]), 2.0 * math.pi)
     if rows.sign[last] > 0.0 and abs(rest) < 1e-9:
         q = Quantity(f"q_{last + 1}", total.value - sum(part.value for part in parts), "angle")
@@ -106,7 +108,7 @@ def sum_equations(
     return book.joint(last, theta, "<total,>" + extra + others, **named)
 
 
-_TRIANGLE = tr_later("The law of cosines in the triangle of the two links. ")
+_TRIANGLE = tr_later("The law of cosines in the triangle of the two links.")
 _EITHER = tr_later("The angle itself may have either sign: the elbow bends to one side or to the other.")
 _ONE_POSE = tr_later("The elbow is straight here (or folded back): both signs give the same pose.")
 
@@ -119,16 +121,21 @@ def _bent(book: Notebook, links: Links) -> str:
 def _out_of_ring(book: Notebook, away: float, a2: Quantity, a3: Quantity, cosine: float) -> str:
     text = book.figures.text
     farthest, nearest = abs(a2.value) + abs(a3.value), abs(abs(a2.value) - abs(a3.value))
-    size = "above 1" if cosine > 0.0 else "below \u22121"
-    where = (
-        tr("outside the ring that the links reach, which ends at {text}", text=text(farthest, "length"))
-        if away > farthest
-        else tr("inside the hole that the links leave, which has a radius of {text}", text=text(nearest, "length"))
+    cannot = (
+        tr("No solution: a cosine cannot be above 1.")
+        if cosine > 0.0
+        else tr("No solution: a cosine cannot be below \u22121.")
     )
-    by = away - farthest if away > farthest else nearest - away
-    return tr(
-        "No solution: a cosine cannot be {size}. The point lies {text} {where}.",
-        size=size,
-        text=text(by, "length"),
-        where=where,
-    )
+    if away > farthest:
+        where = tr(
+            "The point lies {distance} outside the ring that the links reach, which ends at {radius}.",
+            distance=text(away - farthest, "length"),
+            radius=text(farthest, "length"),
+        )
+    else:
+        where = tr(
+            "The point lies {distance} inside the hole that the links leave, which has a radius of {radius}.",
+            distance=text(nearest - away, "length"),
+            radius=text(nearest, "length"),
+        )
+    return f"{cannot} {where}"

@@ -5,18 +5,17 @@ from __future__ import annotations
 import math
 
 from rvsim.kinematics.inverse.ur import UNCERTAIN
-from rvsim.kinematics.inverse.words import WRIST
+from rvsim.kinematics.inverse.words import SHOULDERS, WRIST
 from rvsim.lab.worked.figures import Quantity
 from rvsim.lab.worked.links import Fold, Links, elbow_names, fold_equations, sum_equations, write_links
 from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.spherical_wrist import write_centre
 from rvsim.lab.worked.target import column, write_target
 from rvsim.lab.worked.values import Path
-from rvsim.lab.worked.waist import Side, plane_equations, side_equations, write_waist
+from rvsim.lab.worked.waist import OF_AXIS_5, Side, plane_equations, side_equations, write_waist
 from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
-_SHOULDERS = (tr_later("left shoulder"), tr_later("right shoulder"))
 _CENTRE = tr_later(
     "From the flange back along its axis a by d₆ to axis 5, which stands at d₄ beside the plane of the arm."
 )
@@ -42,12 +41,12 @@ def solve_parallel_axes(book: Notebook, T: FloatArray) -> None:
     rows = book.rows
     S = rows.T_0_n(T)
     write_target(book, S)
-    x, y, z = write_centre(book, S, text=_CENTRE)
+    x, y, z = write_centre(book, S, text=tr(_CENTRE))
     offset = Quantity(_offset_symbol(book), float(rows.turn[0] * rows.d[1:4].sum()))
-    waist = write_waist(book, (x, y), tr("wrist (axis 5)"), offset, _SHOULDERS)
+    waist = write_waist(book, (x, y), OF_AXIS_5, offset, SHOULDERS)
     for side in waist.sides:
         u, w, in_plane = plane_equations(book, waist, side, z)
-        book.step(side.path, tr("Into the arm's plane"), _PLANE, *side_equations(book, waist, side), *in_plane)
+        book.step(side.path, tr("Into the arm's plane"), tr(_PLANE), *side_equations(book, waist, side), *in_plane)
         _write_wrists(book, S, side, u, w)
 
 
@@ -70,7 +69,7 @@ def _write_wrists(book: Notebook, S: FloatArray, side: Side, u: Quantity, w: Qua
     order = sorted((1.0, -1.0), key=lambda sign: names[int(sign < 0.0)] == WRIST[1])
     choices = tuple(names[int(sign < 0.0)] for sign in order)
     free = sine < UNCERTAIN
-    book.step(side.path, tr("Wrist: two signs"), _FREE if free else _NORMAL, *equations, choices=choices)
+    book.step(side.path, tr("Wrist: two signs"), tr(_FREE if free else _NORMAL), *equations, choices=choices)
     for sign, name in zip(order, choices, strict=True):
         path = (*side.path, name)
         taken = book.taken(path, 5) if free else None
@@ -90,13 +89,13 @@ def _write_arm(
     """Wrist angles, the links' end, both elbows: with one sign of sin θ5."""
     theta5, theta6, wrist = _wrist_angles(book, across, sign, taken)
     z4, total, axis = _axis_4(book, S, side, theta6)
-    book.step(path, tr("Wrist angles"), _AXIS4, *wrist, *axis)
+    book.step(path, tr("Wrist angles"), tr(_AXIS4), *wrist, *axis)
     u, w, end = _links_end(book, centre, z4, total)
-    book.step(path, tr("The end of the two links"), _END, *end)
+    book.step(path, tr("The end of the two links"), tr(_END), *end)
     links = Links(1, book.a(1), book.a(2))
     for fold in write_links(book, path, u, w, links, elbow_names(book, side.turned, links)):
-        book.step(fold.path, tr("Elbow and shoulder"), _FOLD, *fold_equations(book, fold, u, w, links))
-        book.step(fold.path, tr("Wrist 1"), _LAST, *_last(book, fold, total))
+        book.step(fold.path, tr("Elbow and shoulder"), tr(_FOLD), *fold_equations(book, fold, u, w, links))
+        book.step(fold.path, tr("Wrist 1"), tr(_LAST), *_last(book, fold, total))
         theta4 = total.value - fold.theta - fold.next_theta
         book.solved(fold.path, side.theta1, fold.theta, fold.next_theta, theta4, theta5, theta6)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from rvsim.kinematics.inverse.five_axis import FEASIBLE
+from rvsim.kinematics.inverse.words import FACING
 from rvsim.lab.worked.figures import Quantity
 from rvsim.lab.worked.five_axis import roll_equations, write_plane
 from rvsim.lab.worked.notebook import Equations, Notebook
@@ -13,7 +14,7 @@ from rvsim.lab.worked.waist import Side
 from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
-_NAMES = (tr_later("facing the tool"), tr_later("turned away"))
+_NAMES = (tr_later("facing the tool"), FACING[1])
 _SHOULDER = tr_later(
     "The tool axis a is z₂, so it gives q₂. It must pass the shoulder at the distance of the second link: "
     "e, how far it is from that, must be 0."
@@ -37,18 +38,18 @@ def _write_side(book: Notebook, S: FloatArray, side: Side, *, fits: bool) -> Non
     if not fits:
         away = book.figures.text(abs(miss.value), "length")
         failure = tr("No solution on this side: the tool axis passes {away} from where the arm can hold it.", away=away)
-        book.step(side.path, tr("Shoulder"), _SHOULDER, *equations, failure=failure)
+        book.step(side.path, tr("Shoulder"), tr(_SHOULDER), *equations, failure=failure)
         return
-    book.step(side.path, tr("Shoulder"), _SHOULDER, *equations)
+    book.step(side.path, tr("Shoulder"), tr(_SHOULDER), *equations)
     turn = float(book.rows.turn[0] * book.rows.turn[1])
     theta3, roll = roll_equations(book, S, side, 2, turn, float(book.rows.theta[3]))
     n, o = column(S, "n"), column(S, "o")
     numbers = {"q1": side.theta1, "q3": book.rows.joint(2, theta3)}
     numbers |= {"nx": n[0].value, "ny": n[1].value, "ox": o[0].value, "oy": o[1].value}
-    book.step(side.path, tr("Roll"), _ROLL, *roll, erratum=("roll", numbers))
+    book.step(side.path, tr("Roll"), tr(_ROLL), *roll, erratum=("roll", numbers))
     length, extension = _extension(book, S, side, u, w)
     numbers = {"q2": theta2, "w": w.value, "a2": float(book.rows.a[1]), "d3": float(book.rows.d[2])}
-    book.step(side.path, tr("Extension"), _EXTENSION, *extension, erratum=("extension", numbers))
+    book.step(side.path, tr("Extension"), tr(_EXTENSION), *extension, erratum=("extension", numbers))
     book.solved(side.path, side.theta1, theta2, theta3, length)
 
 

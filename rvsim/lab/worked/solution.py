@@ -84,7 +84,7 @@ def worked_solution(
     book = Notebook(rows_of(form.chain), known, here, units)
     _WRITERS[type(form)](book, pose)
     ends = tuple(_with_verdict(book.figures, robot, end, result.branches) for end in book.ends)
-    return WorkedSolution(f"{robot.title}: {form.title}", tuple(book.steps), ends)
+    return WorkedSolution(f"{robot.title}: {tr(form.title)}", tuple(book.steps), ends)
 
 
 def _with_verdict(figures: Figures, robot: Robot, end: WorkedBranch, branches: Sequence[Branch]) -> WorkedBranch:
@@ -93,7 +93,7 @@ def _with_verdict(figures: Figures, robot: Robot, end: WorkedBranch, branches: S
     q = end.q
     branch = min(branches, key=lambda found: _distance(robot, found.q, q), default=None)
     if branch is None or _distance(robot, branch.q, q) > _SAME:
-        return replace(end, q=None, reason=_UNCONFIRMED)
+        return replace(end, q=None, reason=tr(_UNCONFIRMED))
     return replace(end, branch=branch, reason="" if branch.within_limits else _broken_limits(figures, robot, branch))
 
 
@@ -114,10 +114,10 @@ def _broken_limits(figures: Figures, robot: Robot, branch: Branch) -> str:
             stop = joint.lower if value < joint.lower else joint.upper
             broken.append(
                 tr(
-                    "{name} needs {text}, stops at {text2}",
-                    name=joint.name,
-                    text=text(value, kind),
-                    text2=text(stop, kind),
+                    "{joint} needs {needed}, stops at {stop}",
+                    joint=tr(joint.name),
+                    needed=text(value, kind),
+                    stop=text(stop, kind),
                 )
             )
-    return "; ".join(broken)
+    return tr("; ").join(broken)

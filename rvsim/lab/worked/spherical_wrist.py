@@ -12,7 +12,7 @@ from rvsim.lab.worked.links import Fold, Links, elbow_names, fold_equations, wri
 from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.target import column, place, write_target
 from rvsim.lab.worked.values import Equation
-from rvsim.lab.worked.waist import Side, plane_equations, side_equations, write_waist
+from rvsim.lab.worked.waist import OF_CENTRE, Side, plane_equations, side_equations, write_waist
 from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
@@ -29,12 +29,12 @@ def solve_spherical_wrist(book: Notebook, T: FloatArray) -> None:
     x, y, z = write_centre(book, S, *equations)
     offset = Quantity("d", float(rows.turn[0] * (rows.d[1] + rows.d[2])))
     links = Links(1, book.a(1), forearm, lift)
-    waist = write_waist(book, (x, y), tr("wrist centre"), offset)
+    waist = write_waist(book, (x, y), OF_CENTRE, offset)
     for side in waist.sides:
         u, w, in_plane = plane_equations(book, waist, side, z)
-        book.step(side.path, tr("Into the arm's plane"), _PLANE, *side_equations(book, waist, side), *in_plane)
+        book.step(side.path, tr("Into the arm's plane"), tr(_PLANE), *side_equations(book, waist, side), *in_plane)
         for fold in write_links(book, side.path, u, w, links, elbow_names(book, side.turned, links)):
-            book.step(fold.path, tr("Elbow and shoulder"), _FOLD, *fold_equations(book, fold, u, w, links))
+            book.step(fold.path, tr("Elbow and shoulder"), tr(_FOLD), *fold_equations(book, fold, u, w, links))
             _write_wrist(book, S, side, fold)
 
 
@@ -47,7 +47,7 @@ _FOLD = tr_later("With this sign; the first link points past the wrist centre by
 
 
 def write_centre(
-    book: Notebook, S: FloatArray, *equations: Equation, text: str = _CENTRE
+    book: Notebook, S: FloatArray, *equations: Equation, text: str = ""
 ) -> tuple[Quantity, Quantity, Quantity]:
     """The wrist's centre p − d6 a."""
     d6 = book.d(5)
@@ -56,7 +56,7 @@ def write_centre(
         centre = c._replace(value=p.value - d6.value * a.value)
         found.append(centre)
         written.append(book.figures.equation(centre, "<p,>-<d6>*<a>", p=p, a=a, d6=d6))
-    book.step((), tr("Wrist centre"), text, *written, *equations, erratum=("centre", {"d6": d6.value}))
+    book.step((), tr("Wrist centre"), text or tr(_CENTRE), *written, *equations, erratum=("centre", {"d6": d6.value}))
     return found[0], found[1], found[2]
 
 
@@ -92,12 +92,12 @@ def _write_wrist(book: Notebook, S: FloatArray, side: Side, fold: Fold) -> None:
     free = sine < _SINGULAR
     order = sorted((1.0, -1.0), key=lambda sign: names[int(sign < 0.0)] == WRIST[1])
     choices = tuple(names[int(sign < 0.0)] for sign in order)
-    text = _FREE if free else _WRIST
+    text = tr(_FREE if free else _WRIST)
     book.step(fold.path, tr("Wrist: two signs"), text, matrix, length, choices=choices)
     for sign, name in zip(order, choices, strict=True):
         path = (*fold.path, name)
         angles, equations = _wrist_equations(book, R, sign, book.taken(path, 3) if free else None)
-        book.step(path, tr("Wrist angles"), _ANGLES_FREE if free else _ANGLES, *equations)
+        book.step(path, tr("Wrist angles"), tr(_ANGLES_FREE if free else _ANGLES), *equations)
         book.solved(path, side.theta1, fold.theta, fold.next_theta, *angles)
 
 

@@ -6,11 +6,16 @@ import numpy as np
 
 from rvsim.lab.worked.figures import Kind, Quantity
 from rvsim.lab.worked.notebook import Notebook
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
 _COLUMNS: tuple[Kind, ...] = ("number", "number", "number", "length")
 _AXES = "xyz"
+_TAKEN_OFF = {
+    ("base",): tr_later("The arm's base transform is taken off first."),
+    ("tool",): tr_later("The arm's tool transform is taken off first."),
+    ("base", "tool"): tr_later("The arm's base and tool transforms are taken off first."),
+}
 
 
 def write_target(book: Notebook, S: FloatArray, *, flange: bool = True, base: bool = False) -> None:
@@ -18,14 +23,14 @@ def write_target(book: Notebook, S: FloatArray, *, flange: bool = True, base: bo
     rows, n = book.rows, book.rows.robot.dof
     off = [name for name, T in (("base", rows.T_base_0), ("tool", rows.T_n_tool)) if not _is_identity(T)]
     off = [name for name in off if not (name == "tool" and not flange) and not (name == "base" and base)]
-    what, frame = tr("frame {n}", n=n) if flange else tr("the tool"), tr("the base frame") if base else "frame 0"
-    text = tr("The wanted pose of {what} in {frame}, with its columns n, o, a and p.", what=what, frame=frame)
+    if base:
+        text = tr("The wanted pose of the tool in the base frame, with its columns n, o, a and p.")
+    elif flange:
+        text = tr("The wanted pose of frame {n} in frame 0, with its columns n, o, a and p.", n=n)
+    else:
+        text = tr("The wanted pose of the tool in frame 0, with its columns n, o, a and p.")
     if off:
-        text += tr(
-            " The arm's {off} transform{value} taken off first.",
-            off=" and ".join(off),
-            value="s are" if len(off) > 1 else " is",
-        )
+        text = f"{text} {tr(_TAKEN_OFF[tuple(off)])}"
     name = f"{{}}^{'b' if base else '0'}T_{n if flange else 't'}"
     formula = "\\begin{bmatrix} n & o & a & p \\end{bmatrix}"
     book.step((), tr("The target"), text, book.figures.matrix(name, formula, S[:3], _COLUMNS))

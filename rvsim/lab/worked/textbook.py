@@ -9,13 +9,13 @@ import numpy as np
 from rvsim.kinematics.inverse.closed_form import is_zero
 from rvsim.kinematics.inverse.elbow import COSINE_TOLERANCE
 from rvsim.kinematics.inverse.extension import AT_SHOULDER
-from rvsim.kinematics.inverse.words import ELBOW
+from rvsim.kinematics.inverse.words import ELBOW, ELBOW_SIDES, EXTENSION, FACING, ONLY
 from rvsim.lab.worked.figures import Quantity
 from rvsim.lab.worked.links import Fold, Links, elbow_names, fold_equations, sum_equations, write_links
 from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.target import place, write_target
 from rvsim.lab.worked.values import Path
-from rvsim.lab.worked.waist import Side, Waist, plane_equations, side_equations, write_waist
+from rvsim.lab.worked.waist import OF_TOOL, Side, Waist, plane_equations, side_equations, write_waist
 from rvsim.language import tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
@@ -51,7 +51,7 @@ def solve_planar(book: Notebook, T: FloatArray) -> None:
         book.step((), tr("The second link"), tr("From axis 2 to the tool's tip."), *equations)
     up = -math.copysign(1.0, links.first.value)
     for fold in write_links(book, (), x, y, links, {up: ELBOW[0], -up: ELBOW[1]}):
-        book.step(fold.path, tr("Both angles"), _FOLD, *fold_equations(book, fold, x, y, links))
+        book.step(fold.path, tr("Both angles"), tr(_FOLD), *fold_equations(book, fold, x, y, links))
         book.solved(fold.path, fold.theta, fold.next_theta)
 
 
@@ -69,27 +69,26 @@ def solve_articulated(book: Notebook, T: FloatArray) -> None:
         book.step((), tr("The forearm"), tr("From axis 3 to the tool's tip."), *equations)
     offset = float(rows.turn[0]) * float(rows.d[1] + rows.d[2] + rows.T_n_tool[2, 3])
     links = Links(1, book.a(1), length, lift)
-    waist = write_waist(book, (x, y), "tool", Quantity("d", 0.0 if abs(offset) <= 1e-9 else offset))
+    waist = write_waist(book, (x, y), OF_TOOL, Quantity("d", 0.0 if abs(offset) <= 1e-9 else offset))
     for side in waist.sides:
         u, w = _into_plane(book, waist, side, z)
         for fold in write_links(book, side.path, u, w, links, elbow_names(book, side.turned, links)):
-            book.step(fold.path, tr("Elbow and shoulder"), _FOLD, *fold_equations(book, fold, u, w, links))
+            book.step(fold.path, tr("Elbow and shoulder"), tr(_FOLD), *fold_equations(book, fold, u, w, links))
             book.solved(fold.path, side.theta1, fold.theta, fold.next_theta)
 
 
 def _into_plane(book: Notebook, waist: Waist, side: Side, z: Quantity) -> tuple[Quantity, Quantity]:
     u, w, equations = plane_equations(book, waist, side, z)
-    book.step(side.path, tr("Into the arm's plane"), _PLANE, *side_equations(book, waist, side), *equations)
+    book.step(side.path, tr("Into the arm's plane"), tr(_PLANE), *side_equations(book, waist, side), *equations)
     return u, w
 
 
 # --- spherical -------------------------------------------------------------------------------------------------------
 
-_AHEAD = (tr_later("extended ahead"), tr_later("extended behind"))
 _PYTHAGORAS = tr_later(
     "The squared distance from the shoulder, less the part across the sliding axis, is the square of L."
 )
-_ANY_SHOULDER = tr_later("The tool is at the shoulder: any q₂ will do. Here {} is taken.")
+_ANY_SHOULDER = tr_later("The tool is at the shoulder: any q₂ will do. Here {angle} is taken.")
 _SLIDE = tr_later("With this sign of L; what lies beyond the tool's own length is the joint's.")
 
 
@@ -104,7 +103,7 @@ def solve_spherical(book: Notebook, T: FloatArray) -> None:
     across = Quantity("b", float(rows.a[1] + c * tip[0] - s * tip[1]))
     aside = float(rows.turn[0]) * float(rows.d[1] + rows.turn[1] * (s * tip[0] + c * tip[1]))
     symbol = "d_2" if aside == rows.d[1] else ("-d_2" if aside == -rows.d[1] else "d")
-    waist = write_waist(book, (x, y), "tool", Quantity(symbol, aside))
+    waist = write_waist(book, (x, y), OF_TOOL, Quantity(symbol, aside))
     for side in waist.sides:
         u, w = _into_plane(book, waist, side, z)
         _write_slides(book, side, (u, w), across, float(tip[2]))
@@ -120,10 +119,10 @@ def _write_slides(book: Notebook, side: Side, point: tuple[Quantity, Quantity], 
         away = book.figures.text(abs(across.value) - math.hypot(u.value, w.value), "length")
         failure = tr("No solution: the root is not real, the tool is {away} too near to the shoulder.", away=away)
         left = equation._replace(result="", value=0.0)
-        book.step(side.path, tr("Extension"), _PYTHAGORAS, left, failure=failure)
+        book.step(side.path, tr("Extension"), tr(_PYTHAGORAS), left, failure=failure)
         return
-    book.step(side.path, tr("Extension: two signs"), _PYTHAGORAS, equation, choices=_AHEAD)
-    for sign, name in zip((1.0, -1.0), _AHEAD, strict=True):
+    book.step(side.path, tr("Extension: two signs"), tr(_PYTHAGORAS), equation, choices=EXTENSION)
+    for sign, name in zip((1.0, -1.0), EXTENSION, strict=True):
         _write_slide(book, side, (*side.path, name), (u, w), across, sign * size.value, tip)
 
 
@@ -148,7 +147,7 @@ def _write_slide(
     book.step(
         path,
         tr("Shoulder and slide"),
-        _SLIDE,
+        tr(_SLIDE),
         book.figures.equation(alpha, "\\operatorname{atan2}(<w,>,\\,<u,>)", u=u, w=w),
         book.figures.equation(beta, lean, L=L, b=across),
         *book.joint(1, theta2, "<alpha,>+<beta>", alpha, beta),
@@ -159,14 +158,13 @@ def _write_slide(
 
 def _write_free_shoulder(book: Notebook, side: Side, path: Path, stroke: float) -> None:
     theta2 = book.taken(path, 1)
-    text = _ANY_SHOULDER.format(book.figures.text(theta2, "angle"))
+    text = tr(_ANY_SHOULDER, angle=book.figures.text(theta2, "angle"))
     book.step(path, tr("Shoulder and slide"), text)
     book.solved(path, side.theta1, theta2, stroke)
 
 
 # --- SCARA -----------------------------------------------------------------------------------------------------------
 
-_LEFT_RIGHT = (tr_later("elbow left"), tr_later("elbow right"))
 _YAW = tr_later(
     "The tool of this arm stays upright. ψ is the yaw from its zero pose that comes nearest to the wanted rotation."
 )
@@ -188,15 +186,15 @@ def solve_scara(book: Notebook, T: FloatArray) -> None:
     second = book.a(1)._replace(value=abs(link))
     links = Links(0, book.a(0), second, Quantity("\\lambda", lift, "angle") if abs(lift) > 1e-12 else None)
     left = -math.copysign(1.0, links.first.value)
-    for fold in write_links(book, (), x, y, links, {left: _LEFT_RIGHT[0], -left: _LEFT_RIGHT[1]}):
-        book.step(fold.path, tr("Both links"), _FOLD, *fold_equations(book, fold, x, y, links))
+    for fold in write_links(book, (), x, y, links, {left: ELBOW_SIDES[0], -left: ELBOW_SIDES[1]}):
+        book.step(fold.path, tr("Both links"), tr(_FOLD), *fold_equations(book, fold, x, y, links))
         _write_scara_end(book, fold, yaw, stroke)
 
 
 def _write_scara_end(book: Notebook, fold: Fold, yaw: Quantity, stroke: float) -> None:
     fixed = -float(book.rows.theta[2])
     parts = book.angle(0, fold.theta), book.angle(1, fold.next_theta)
-    book.step(fold.path, tr("Tool yaw"), _SUM, *sum_equations(book, yaw, parts, 3, fixed))
+    book.step(fold.path, tr("Tool yaw"), tr(_SUM), *sum_equations(book, yaw, parts, 3, fixed))
     theta4 = yaw.value + fixed - fold.theta - fold.next_theta
     book.solved(fold.path, fold.theta, fold.next_theta, stroke, theta4)
 
@@ -207,7 +205,7 @@ def _write_yaw(book: Notebook, S: FloatArray) -> Quantity:
     m = {f"m{i}{j}": Quantity(f"m_{{{i}{j}}}", float(M[i - 1, j - 1]), "number") for i in (1, 2) for j in (1, 2)}
     matrix = book.figures.matrix("M", "{}^0R_t\\,({}^4R_t)^T", M, ("number", "number"))
     angle = book.figures.equation(yaw, "\\operatorname{atan2}(<m21,>-<m12>,\\,<m11,>+<m22>)", **m)
-    book.step((), tr("Yaw"), _YAW, matrix, angle)
+    book.step((), tr("Yaw"), tr(_YAW), matrix, angle)
     return yaw
 
 
@@ -232,14 +230,13 @@ def _write_stroke(book: Notebook, S: FloatArray) -> float:
     if abs(raised.value - rows.d[0]) > 1e-12:
         raised = raised._replace(symbol="h")
     value = z.value - raised.value
-    book.step((), tr("Stroke"), _STROKE, *book.joint(2, value, "<z,>-<h>", z=z, h=raised))
+    book.step((), tr("Stroke"), tr(_STROKE), *book.joint(2, value, "<z,>-<h>", z=z, h=raised))
     return value
 
 
 # --- cylindrical -----------------------------------------------------------------------------------------------------
 
-_CYLINDRICAL = (tr_later("facing, extended ahead"), tr_later("turned away, extended behind"))
-_REST = tr_later("Height and distance are the two strokes' own.")
+_CYLINDRICAL = (f"{FACING[0]}, {EXTENSION[0]}", f"{FACING[1]}, {EXTENSION[1]}")
 
 
 def solve_cylindrical(book: Notebook, T: FloatArray) -> None:
@@ -253,7 +250,7 @@ def solve_cylindrical(book: Notebook, T: FloatArray) -> None:
     names = _CYLINDRICAL if rows.sine[0] > 0.0 else _CYLINDRICAL[::-1]
     lead = Quantity("\\delta", math.atan2(outward[1], outward[0]), "angle")
     across = Quantity("d", 0.0 if abs(offset) <= 1e-9 else offset)
-    waist = write_waist(book, (x, y), "tool", across, names, lead.value)
+    waist = write_waist(book, (x, y), OF_TOOL, across, names, lead.value)
     start = Quantity("h", float(origin[2]))
     inner = Quantity("l", float(origin[0] * outward[0] + origin[1] * outward[1]))
     for side in waist.sides:
@@ -266,9 +263,8 @@ def solve_cylindrical(book: Notebook, T: FloatArray) -> None:
             side.path,
             tr("The three joints"),
             tr(
-                "{rest} At q₁ = 0 the arm points {text} from x.",
-                rest=_REST,
-                text=book.figures.text(lead.value, "angle"),
+                "Height and distance are the two strokes' own. At q₁ = 0 the arm points {angle} from x.",
+                angle=book.figures.text(lead.value, "angle"),
             ),
             *book.joint(0, theta1, base + turned + "-<delta>", waist.psi, waist.gamma, lead),
             *book.joint(1, z.value - start.value, "<z,>-<h>", z=z, h=start),
@@ -295,10 +291,10 @@ def solve_cartesian(book: Notebook, T: FloatArray) -> None:
     values = np.linalg.solve(D, T[:3, 3] - start)
     matrix = book.figures.matrix("D", "\\begin{bmatrix} z_0 & z_1 & z_2 \\end{bmatrix}", D, ("number",) * 3)
     difference = book.figures.matrix("p-p_0", "", (T[:3, 3] - start)[:, None], ("length",))
-    book.step((), tr("Strokes"), _STROKES, matrix, difference)
+    book.step((), tr("Strokes"), tr(_STROKES), matrix, difference)
     solved = book.figures.matrix(
         "q", "D^{-1}\\,(p-p_0)", [[rows.joint(i, v)] for i, v in enumerate(values)], ("length",)
     )
-    path = (tr("the only solution"),)
+    path = (ONLY,)
     book.step(path, tr("Solve it"), tr("Each stroke moves the tool along its own direction."), solved)
     book.solved(path, *values.tolist())

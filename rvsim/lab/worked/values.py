@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from rvsim.kinematics.inverse import Branch
+from rvsim.kinematics.inverse import Branch, branch_title
 from rvsim.spatial.arrays import FloatArray
 
 Path = tuple[str, ...]
@@ -82,6 +82,11 @@ class WorkedBranch:
     def label(self) -> str:
         """Its name, for instance "front, elbow up"."""
         return ", ".join(self.path)
+
+    @property
+    def title(self) -> str:
+        """The same as the screen says it."""
+        return branch_title(self.label)
 
     @property
     def within_limits(self) -> bool:

@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from rvsim.kinematics.inverse.elbow import COSINE_TOLERANCE
+from rvsim.kinematics.inverse.words import SIDES
 from rvsim.lab.worked.figures import Quantity
 from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.values import Path
@@ -28,6 +29,54 @@ class Side(NamedTuple):
         return Quantity("c_1", math.cos(self.theta1), "number"), Quantity("s_1", math.sin(self.theta1), "number")
 
 
+class Point(NamedTuple):
+    """What is said of the point that the plane must hold: where the plane stands, and where there is no way."""
+
+    beside: str
+    through: str
+    on_axis: str
+    too_near: str
+
+
+OF_TOOL = Point(
+    tr_later("The arm's plane stands beside the base axis by a fixed distance; it can hold the tool in two ways."),
+    tr_later("The arm's plane must hold the tool: the arm faces it, or is turned away from it."),
+    tr_later("The tool lies on the base axis, so the waist may stand anywhere: any q₁ will do. Here {angle} is taken."),
+    tr_later(
+        "No solution: the tool is {away} from the base axis and must be at least {least} away. It lies {missing} "
+        "too near."
+    ),
+)
+OF_CENTRE = Point(
+    tr_later(
+        "The arm's plane stands beside the base axis by a fixed distance; it can hold the wrist centre in two ways."
+    ),
+    tr_later("The arm's plane must hold the wrist centre: the arm faces it, or is turned away from it."),
+    tr_later(
+        "The wrist centre lies on the base axis, so the waist may stand anywhere: any q₁ will do. Here {angle} is "
+        "taken."
+    ),
+    tr_later(
+        "No solution: the wrist centre is {away} from the base axis and must be at least {least} away. It lies "
+        "{missing} too near."
+    ),
+)
+OF_AXIS_5 = Point(
+    tr_later(
+        "The arm's plane stands beside the base axis by a fixed distance; it can hold the wrist (axis 5) in two ways."
+    ),
+    tr_later("The arm's plane must hold the wrist (axis 5): the arm faces it, or is turned away from it."),
+    tr_later(
+        "The wrist (axis 5) lies on the base axis, so the waist may stand anywhere: any q₁ will do. Here {angle} is "
+        "taken."
+    ),
+    tr_later(
+        "No solution: the wrist (axis 5) is {away} from the base axis and must be at least {least} away. It lies "
+        "{missing} too near."
+    ),
+)
+
+
 class Waist(NamedTuple):
     """A point (x, y), its azimuth ψ, and γ, how far the plane's offset turns the waist."""
 
@@ -41,9 +90,9 @@ class Waist(NamedTuple):
 def write_waist(
     book: Notebook,
     point: tuple[Quantity, Quantity],
-    what: str,
+    of: Point,
     offset: Quantity,
-    names: tuple[str, str] = ("front", "back"),
+    names: tuple[str, str] = SIDES,
     lead: float = 0.0,
 ) -> Waist:
     """θ1 for a point of the arm's plane, which stands at `offset` along (sin θ1, −cos θ1): two sides, or none.
@@ -59,9 +108,9 @@ def write_waist(
     waist = Waist(x, y, Quantity("\\psi", psi, "angle"), Quantity("\\gamma", gamma, "angle"), ())
     equations = () if free else _equations(book, waist, Quantity("\\rho", rho), offset)
     if rho * rho - D * D < -2.0 * COSINE_TOLERANCE * D * D:
-        book.step((), tr("Waist"), _BESIDE.format(what=what), *equations, failure=_too_near(book, rho, abs(D), what))
+        book.step((), tr("Waist"), tr(of.beside), *equations, failure=_too_near(book, rho, abs(D), of))
         return waist
-    text = _free(book, what, psi - lead) if free else (_BESIDE if D else _THROUGH).format(what=what)
+    text = _free(book, of, psi - lead) if free else tr(of.beside if D else of.through)
     book.step((), tr("Waist: two ways"), text, *equations, choices=choices)
     out = math.sqrt(max(rho * rho - D * D, 0.0))
     turn = math.atan2(D, out)
@@ -96,12 +145,6 @@ def plane_equations(book: Notebook, waist: Waist, side: Side, z: Quantity) -> tu
     )
 
 
-_BESIDE = tr_later(
-    "The arm's plane stands beside the base axis by a fixed distance; it can hold the {what} in two ways."
-)
-_THROUGH = tr_later("The arm's plane must hold the {what}: the arm faces it, or is turned away from it.")
-
-
 def _equations(book: Notebook, waist: Waist, rho: Quantity, offset: Quantity) -> Equations:
     figures, x, y = book.figures, waist.x, waist.y
     psi = figures.equation(waist.psi, "\\operatorname{atan2}(<y,>,\\,<x,>)", x=x, y=y)
@@ -113,22 +156,10 @@ def _equations(book: Notebook, waist: Waist, rho: Quantity, offset: Quantity) ->
     return psi, distance, figures.equation(waist.gamma, "\\arcsin\\frac{<D,>}{<rho,>}", D=offset, rho=rho)
 
 
-def _free(book: Notebook, what: str, theta1: float) -> str:
-    angle = book.figures.text(theta1, "angle")
-    return tr(
-        "The {what} lies on the base axis, so the waist may stand anywhere: any q₁ will do. Here {angle} is taken.",
-        what=what,
-        angle=angle,
-    )
+def _free(book: Notebook, of: Point, theta1: float) -> str:
+    return tr(of.on_axis, angle=book.figures.text(theta1, "angle"))
 
 
-def _too_near(book: Notebook, rho: float, D: float, what: str) -> str:
+def _too_near(book: Notebook, rho: float, D: float, of: Point) -> str:
     text = book.figures.text
-    return tr(
-        "No solution: the {what} is {text} from the base axis and must be at least "
-        "{text2} away. It lies {text3} too near.",
-        what=what,
-        text=text(rho, "length"),
-        text2=text(D, "length"),
-        text3=text(D - rho, "length"),
-    )
+    return tr(of.too_near, away=text(rho, "length"), least=text(D, "length"), missing=text(D - rho, "length"))
