@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -103,6 +105,7 @@ class Animation:
         self._left: Iterator[float] = iter(settings.times(trajectory.duration))
         self.frames: list[Image.Image] = []
         self.last: QImage | None = None  # painted
+        self._given_up = False
 
     @property
     def share(self) -> float:
@@ -119,8 +122,34 @@ class Animation:
         return len(self.frames) < self.total
 
     def encode(self, ending: str) -> bytes:
-        """The file in the format of ".gif", ".png" (APNG) or ".webp"; in any thread."""
-        return encoded(self.frames, self.settings, ending)
+        """The file in the format of ".gif", ".png" (APNG) or ".webp", empty if it was given up; in any thread."""
+        with suppress(_GivenUpError):
+            return encoded(self.frames, self.settings, ending, self._go_on)
+        return b""
+
+    def give_up(self) -> None:
+        """Let `encode` end soon; from any thread."""
+        self._given_up = True
+
+    def _go_on(self) -> None:
+        if self._given_up:
+            raise _GivenUpError
+
+
+class _GivenUpError(Exception):
+    """Nobody waits for the file any more."""
+
+
+class _AskingFile(io.BytesIO):
+    """A file in memory that calls `go_on` before it is written to."""
+
+    def __init__(self, go_on: Callable[[], None]) -> None:
+        super().__init__()
+        self._go_on = go_on
+
+    def write(self, data: Any) -> int:
+        self._go_on()
+        return super().write(data)
 
 
 def pillow_image(image: QImage) -> Image.Image:
@@ -130,25 +159,40 @@ def pillow_image(image: QImage) -> Image.Image:
     return Image.frombuffer("RGB", size, bytes(plain.constBits()), "raw", "RGB", plain.bytesPerLine(), 1)
 
 
-def encoded(frames: list[Image.Image], settings: AnimationSettings, ending: str) -> bytes:
-    """The frames one after the other, the last one held for a moment."""
+def encoded(
+    frames: list[Image.Image], settings: AnimationSettings, ending: str, go_on: Callable[[], None] = lambda: None
+) -> bytes:
+    """The frames one after the other, the last one held for a moment; `go_on` is called often, and may raise."""
     between = 1000.0 / settings.rate
     ends = [round(between * (number + 1)) for number in range(len(frames) - 1)]
     durations = [end - start for start, end in zip([0, *ends], ends, strict=False)]
     durations.append(round(1000.0 * _HOLD))
-    shown = _with_few_colors(frames) if ending == ".gif" else frames
+    shown = _with_few_colors(frames, go_on) if ending == ".gif" else frames
+    for frame in shown:
+        vars(frame)["seek"] = partial(_turn_to, go_on)
     more: dict[str, Any] = dict(_ENCODING.get(ending, {}))
     if settings.loop or ending != ".gif":  # a GIF without the word plays once
         more["loop"] = 0 if settings.loop else 1
-    file = io.BytesIO()
+    file = _AskingFile(go_on)
     shown[0].save(file, FORMATS[ending], save_all=True, append_images=shown[1:], duration=durations, **more)
     return file.getvalue()
 
 
-def _with_few_colors(frames: list[Image.Image]) -> list[Image.Image]:
+def _turn_to(go_on: Callable[[], None], page: int) -> None:
+    """Pillow turns each picture to its pages when it comes to it: there is one."""
+    go_on()
+    if page:
+        raise EOFError
+
+
+def _with_few_colors(frames: list[Image.Image], go_on: Callable[[], None]) -> list[Image.Image]:
     """In the colours of the frame in the middle: one table for all, so that what rests does not flicker."""
     table = frames[len(frames) // 2].quantize(_MOST_COLORS, method=Image.Quantize.MAXCOVERAGE, kmeans=1)
-    return [frame.quantize(palette=table, dither=Image.Dither.NONE) for frame in frames]
+    few = []
+    for frame in frames:
+        go_on()
+        few.append(frame.quantize(palette=table, dither=Image.Dither.NONE))
+    return few
 
 
 def save_animation(data: bytes, path: Path) -> None:

@@ -95,10 +95,16 @@ class PanelDocks:
         self.go_to(dock)
 
     def close_workers(self) -> None:
-        """End the threads of all pages, for the window closes."""
+        """End the threads of all pages and close the dialogs beside the window, for it closes.
+
+        Qt leaves them open, and what they are at half done.
+        """
         for page in (page for dock in self.right for page in _pages_in(dock)):
             if hasattr(page.widget, "close_worker"):
                 page.widget.close_worker()
+        for widget in self._window.findChildren(QWidget):
+            if widget.isWindow() and widget.isVisible() and not isinstance(widget, QDockWidget):
+                widget.close()
 
     @property
     def front_page(self) -> str:

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
 
 from rvsim import load_robot
-from rvsim.gui.animation import FORMATS, Animation, AnimationSettings, Picturing
+from rvsim.gui.animation import FORMATS, Animation, AnimationSettings, Picturing, encoded
 from rvsim.gui.animation_dialog import AnimationDialog
 from rvsim.gui.app import build_window
 from rvsim.gui.main_window import MainWindow
@@ -66,6 +66,27 @@ def test_each_format_plays_all_of_it(painted: Animation, ending: str) -> None:
     wanted = np.asarray(painted.frames[-1], dtype=float)
     assert np.abs(last - wanted).mean() < 4.0
     assert np.abs(last - np.asarray(painted.frames[0], dtype=float)).mean() > 0.5
+
+
+class GivenUpError(Exception):
+    """Somebody gives up."""
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_writing_can_be_given_up_at_any_frame(painted: Animation, ending: str) -> None:
+    asked = 0
+
+    def go_on() -> None:
+        nonlocal asked
+        asked += 1
+        if asked >= 5:
+            raise GivenUpError
+
+    with pytest.raises(GivenUpError):
+        encoded(painted.frames, SMALL, ending, go_on)
+    assert asked < 8  # it may tidy up
+    painted.give_up()
+    assert painted.encode(ending) == b""
 
 
 @pytest.fixture

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -32,6 +33,7 @@ from rvsim.scene.paths import path_items
 
 _TRAIL = 600  # places
 _SETTINGS = AnimationSettings(640, 400, 12)
+_MOMENT = 0.02  # [s] that is waited for another thread
 _LONGEST = 60.0  # [s] of an animation: a longer motion is shown faster
 
 
@@ -211,8 +213,20 @@ def _animation(study: Study, file: Path) -> Iterator[Progress]:
     animation = Animation(motion, _picturing(study), settings)
     while animation.step():
         yield Progress(0.95 * animation.share, tr("Painting the animation"))
-    yield Progress(0.95, tr("Writing the animation"))
-    save_animation(animation.encode(".gif"), file)
+    data = yield from _encoded(animation)
+    save_animation(data, file)
+
+
+def _encoded(animation: Animation) -> Generator[Progress, None, bytes]:
+    """A thread writes it, for that takes seconds at once."""
+    with ThreadPoolExecutor(1, "rvsim-animation") as pool:
+        job = pool.submit(animation.encode, ".gif")
+        try:
+            while wait([job], _MOMENT).not_done:
+                yield Progress(0.95, tr("Writing the animation"))
+        finally:
+            animation.give_up()
+        return job.result()
 
 
 def _picturing(study: Study) -> Picturing:
