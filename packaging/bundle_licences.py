@@ -136,6 +136,12 @@ def _system_part(owner: str, names: list[str]) -> Part:
     return Part(f"{owner} ({', '.join(sorted(names))})", "of the system", "see its text", "", texts)
 
 
+def own_fonts() -> list[Part]:
+    """The fonts in resources/fonts that others have made."""
+    text = (TEXTS / "Noto-Sans-Arabic.txt").read_text(encoding="utf-8")
+    return [Part("Noto Sans Arabic UI", "2.005", "OFL-1.1", "https://notofonts.github.io", (text,))]
+
+
 def third_party(libraries: Iterable[Path] = ()) -> str:
     """The whole text: a table of the parts, then each part's texts.
 
@@ -144,7 +150,7 @@ def third_party(libraries: Iterable[Path] = ()) -> str:
     """
     wheels = [part_of(wheel) for wheel in required()]
     loader = part_of(distribution("pyinstaller"))._replace(licence="GPL-2.0 with an exception for what it starts")
-    parts = [*wheels, python_part(), loader, *system_parts(libraries)]
+    parts = [*wheels, python_part(), loader, *own_fonts(), *system_parts(libraries)]
     table = "".join(f"  {part.name} {part.version}: {part.licence}  {part.home}\n" for part in parts)
     texts = [f"\n\n{_LINE}\n{part.name}\n{_LINE}\n\n{text.strip()}\n" for part in parts for text in part.texts]
     return _HEAD + table + "".join(texts)

@@ -14,6 +14,7 @@ USAGE = """usage: python3 packaging/dev.py COMMAND [arguments]
   bench  measure the speed of rvsim against other libraries; arguments name benchmarks, for instance: forward
   soak   run the long random tests; arguments name them, and options are passed on, for instance: --count 10000
   bundle make programs that run without Python, for computers like this one, in dist; test them, weigh and time them
+  texts  bring the translations in resources/languages up to date with the code, and say how many are missing
   wheel  make a wheel and an sdist in dist, install each into a new environment, and test them there
 
 The first use makes .venv in this folder and installs everything there; nothing outside this folder is touched,

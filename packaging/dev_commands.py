@@ -149,6 +149,12 @@ def wheel(arguments: list[str]) -> int:
     return dev_wheel.wheel(arguments)
 
 
+def texts(arguments: list[str]) -> int:
+    """Bring the catalogues of the languages up to date with the code."""
+    python = str(dev_environment.ensure())
+    return subprocess.call([python, str(ROOT / "packaging" / "dev_texts.py"), *arguments])
+
+
 COMMANDS: dict[str, Callable[[list[str]], int]] = {
     "run": run,
     "test": test,
@@ -156,6 +162,7 @@ COMMANDS: dict[str, Callable[[list[str]], int]] = {
     "soak": soak,
     "bundle": bundle,
     "wheel": wheel,
+    "texts": texts,
 }
 
 

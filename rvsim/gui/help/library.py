@@ -7,6 +7,7 @@ from functools import cache
 from typing import NamedTuple
 
 from rvsim.gui.formula import plain_text
+from rvsim.language import language
 from rvsim.resources import resource
 
 INDEX = "index"
@@ -43,10 +44,15 @@ class Hit(NamedTuple):
     excerpt: str
 
 
-@cache
 def help_pages() -> dict[str, HelpPage]:
-    """All pages by name."""
-    files = sorted(resource("help").glob("*.md"))
+    """All pages by name, in the language that is spoken; in English where nobody has translated one."""
+    return _pages_in(language().code)
+
+
+@cache
+def _pages_in(code: str) -> dict[str, HelpPage]:
+    english, translated = sorted(resource("help").glob("*.md")), resource("help", code)
+    files = [own if (own := translated / file.name).is_file() else file for file in english]
     return {file.stem: _page(file.stem, file.read_text(encoding="utf-8")) for file in files}
 
 
