@@ -13,14 +13,13 @@ from rvsim.gui.diagnostics import diagnostics
 from rvsim.gui.help.show import show_help
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
-from rvsim.language import tr, tr_later
+from rvsim.language import tr
 from rvsim.resources import resource
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
 
 _WIDTH, _LINES, _ICON = 480, 12, 48
-_COPIED = tr_later("Copied. Put it into a mail or a report of a fault.")
 
 
 class AboutDialog(QDialog):
@@ -47,8 +46,9 @@ class AboutDialog(QDialog):
         self.resize(min(_WIDTH, window.width()), self.sizeHint().height())
 
     def _head(self) -> QHBoxLayout:
-        icon, title = QLabel(), QLabel(f"<span style='font-size: large; font-weight: 600'>rvsim</span><br>"
-                                       f"Version {rvsim.__version__}")  # fmt: skip
+        version = tr("Version {version}", version=rvsim.__version__)
+        title = QLabel(f"<span style='font-size: large; font-weight: 600'>rvsim</span><br>{version}")
+        icon = QLabel()
         icon.setPixmap(QIcon(str(resource("icons", "rvsim.svg"))).pixmap(_ICON, _ICON))
         row = QHBoxLayout()
         row.setSpacing(12)
@@ -60,8 +60,7 @@ class AboutDialog(QDialog):
         words = QLabel(
             tr(
                 "See, move, compute and understand a robot arm. Free software under the MIT licence; it comes without "
-                "any "
-                "warranty. The window is made with Qt for Python, which is under the LGPL, version 3."
+                "any warranty. The window is made with Qt for Python, which is under the LGPL, version 3."
             )
         )
         words.setWordWrap(True)
@@ -72,6 +71,7 @@ class AboutDialog(QDialog):
         self.facts.setObjectName("about_facts")
         self.facts.setAccessibleName(tr("Versions and diagnostics"))
         self.facts.setReadOnly(True)
+        self.facts.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # English, in every language
         font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
         font.setPointSizeF(QFont(self.font()).pointSizeF() * 0.95)
         self.facts.setFont(font)
@@ -90,7 +90,7 @@ class AboutDialog(QDialog):
     def copy(self) -> None:
         """The facts on the clipboard."""
         QGuiApplication.clipboard().setText(self.facts.toPlainText())
-        self.copied.setText(_COPIED)
+        self.copied.setText(tr("Copied. Put it into a mail or a report of a fault."))
 
     def _licences(self) -> None:
         self.close()

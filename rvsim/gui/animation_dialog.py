@@ -39,7 +39,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, form, select
 from rvsim.gui.workers import LatestWorker
 from rvsim.kinematics import forward_kinematics
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.motion import Trajectory
 from rvsim.playback.player import Playable
 from rvsim.scene.build import SceneOptions
@@ -85,13 +85,13 @@ class AnimationDialog(QDialog):
     def _make_choices(self) -> None:
         self.size_box = combo("animation_size", tr("Size of the picture"))
         for width, height in SIZES:
-            self.size_box.addItem(f"{width} × {height}", (width, height))
+            self.size_box.addItem(left_to_right(f"{width} × {height}"), (width, height))
         self.rate_box = combo("animation_rate", tr("Frames a second"))
         for rate in RATES:
             self.rate_box.addItem(tr("{rate} frames a second", rate=rate), rate)
         self.speed_box = combo("animation_speed", tr("How fast the motion runs"))
         for speed in _SPEEDS:
-            self.speed_box.addItem(f"{speed:g}×", speed)
+            self.speed_box.addItem(left_to_right(f"{speed:g}×"), speed)
         self.format_box = combo("animation_format", tr("Format of the file"), _FORMATS)
         self.loop = QCheckBox(tr("Again and again"))
         self.loop.setObjectName("animation_loop")
@@ -99,9 +99,10 @@ class AnimationDialog(QDialog):
         self.size_box.setCurrentIndex(1)
         select(self.rate_box, 15)
         select(self.speed_box, 1.0)
-        self.file = QLineEdit(str(Path.home() / tr("{name}.gif", name=self._session.robot.name)))
+        self.file = QLineEdit(str(Path.home() / f"{self._session.robot.name}.gif"))
         self.file.setObjectName("animation_file")
         self.file.setAccessibleName(tr("File"))
+        self.file.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         for box in (self.size_box, self.rate_box, self.speed_box):
             box.currentIndexChanged.connect(lambda _: self._show_summary())
         self.size_box.currentIndexChanged.connect(lambda _: self._show_still())
@@ -227,7 +228,7 @@ class AnimationDialog(QDialog):
             self._show_frame(animation)
         if not more:
             self._slice.stop()
-            self.progress.setFormat("writing …")
+            self.progress.setFormat(tr("writing …"))
             self._worker.ask(partial(animation.encode, self.ending))
 
     def _on_encoded(self, data: bytes) -> None:
@@ -237,7 +238,7 @@ class AnimationDialog(QDialog):
         except FileWriteError as problem:
             sentence, level = str(problem), "error"
         else:
-            sentence, level = tr("Saved {path}: {count:.2f} MB.", path=path, count=len(data) / 1000000.0), "info"
+            sentence, level = tr("Saved {path}: {size:.2f} MB.", path=path, size=len(data) / 1e6), "info"
         self._end()
         self.summary.setText(sentence)
         set_role(self.summary, role="", level="" if level == "info" else level)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_number, format_quantity, joint_kind
 from rvsim.kinematics import Branch, jacobian
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -17,6 +17,18 @@ _BESIDE = 0.03  # [rad, sizes]
 _BOTH = 0.1
 _SINGULAR = 1e-6
 _NEAR_SINGULAR = 0.02  # of the tool's motion in sizes of the arm a radian of the joints
+
+# Whether it is lost altogether, whether it is a shift or a turn, and whether only one without the other.
+_LOST = {
+    (True, True, False): tr_later("Singular: the tool cannot move along {direction}."),
+    (True, True, True): tr_later("Singular: the tool cannot move along {direction} without turning."),
+    (True, False, False): tr_later("Singular: the tool cannot turn about {direction}."),
+    (True, False, True): tr_later("Singular: the tool cannot turn about {direction} in place."),
+    (False, True, False): tr_later("Near a singularity: the tool can hardly move along {direction}."),
+    (False, True, True): tr_later("Near a singularity: the tool can hardly move along {direction} without turning."),
+    (False, False, False): tr_later("Near a singularity: the tool can hardly turn about {direction}."),
+    (False, False, True): tr_later("Near a singularity: the tool can hardly turn about {direction} in place."),
+}
 
 
 def circled(name: str) -> str:
@@ -34,20 +46,18 @@ def _broken(robot: Robot, joint: int, value: float, preferences: Preferences) ->
     lower, upper = robot.limits[joint]
     kind = joint_kind(robot, joint)
     texts = [format_quantity(number, kind, preferences) for number in (value, lower if value < lower else upper)]
-    return tr(
-        "{joint_names} {texts} stops at {texts2}", joint_names=robot.joint_names[joint], texts=texts[0], texts2=texts[1]
-    )
+    return tr("{joint} {value} stops at {limit}", joint=tr(robot.joint_names[joint]), value=texts[0], limit=texts[1])
 
 
 def short_limit_words(robot: Robot, branch: Branch, preferences: Preferences) -> str:
     """The limits that are broken, short: "elbow stops at −110.0°", or of several joints "shoulder, elbow stop"."""
     broken = broken_joints(branch).tolist() or [int(np.argmin(branch.limit_margin))]
     if len(broken) > 1:
-        return tr("{broken} stop", broken=", ".join(robot.joint_names[joint] for joint in broken))
+        return tr("{joints} stop", joints=tr(", ").join(tr(robot.joint_names[joint]) for joint in broken))
     (joint,) = broken
     lower, upper = robot.limits[joint]
     stop = format_quantity(lower if branch.q[joint] < lower else upper, joint_kind(robot, joint), preferences)
-    return tr("{joint_names} stops at {stop}", joint_names=robot.joint_names[joint], stop=stop)
+    return tr("{joint} stops at {limit}", joint=tr(robot.joint_names[joint]), limit=stop)
 
 
 def broken_joints(branch: Branch) -> NDArray[np.intp]:
@@ -62,9 +72,9 @@ def margin_words(robot: Robot, branch: Branch, preferences: Preferences) -> str:
     if np.isinf(margin):
         return tr("no joint has a limit")
     return tr(
-        "{joint_names} {format_quantity} before its limit",
-        joint_names=robot.joint_names[joint],
-        format_quantity=format_quantity(margin, joint_kind(robot, joint), preferences),
+        "{joint} {distance} before its limit",
+        joint=tr(robot.joint_names[joint]),
+        distance=format_quantity(margin, joint_kind(robot, joint), preferences),
     )
 
 
@@ -82,16 +92,10 @@ def singular_words(robot: Robot, q: FloatArray) -> str:
     left, _, _ = _least_motion(robot, beside)
     shift, turn = left[:3], left[3:]
     # A motion is lost as far as it lies along this one: a shift alone, a turn alone, or only one without the other.
-    if np.linalg.norm(shift) >= np.linalg.norm(turn):
-        lost = tr("move along {direction}", direction=_direction(shift)) + tr(" without turning") * bool(
-            np.linalg.norm(turn) > _BOTH
-        )
-    else:
-        lost = tr("turn about {direction}", direction=_direction(turn)) + tr(" in place") * bool(
-            np.linalg.norm(shift) > _BOTH
-        )
-    where, how = (tr("Singular"), "cannot") if least < _SINGULAR else (tr("Near a singularity"), tr("can hardly"))
-    return tr("{where}: the tool {how} {lost}.", where=where, how=how, lost=lost)
+    shifts = bool(np.linalg.norm(shift) >= np.linalg.norm(turn))
+    main, other = (shift, turn) if shifts else (turn, shift)
+    sentence = _LOST[least < _SINGULAR, shifts, bool(np.linalg.norm(other) > _BOTH)]
+    return tr(sentence, direction=_direction(main))
 
 
 def _least_motion(robot: Robot, q: FloatArray) -> tuple[FloatArray, float, FloatArray]:

@@ -1,4 +1,4 @@
-"""What each command of `actions.ACTIONS` does. Switches are a table too: command, preference, value when on and off."""
+"""What each command of `ACTIONS` does. Switches are a table too: command, preference, value when on and off."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from rvsim.gui.text_dialog import TextDialog
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.tables import tracking_csv
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -271,7 +271,7 @@ class Commands(QObject):
 
     def save_picture(self) -> None:
         """Ask for a place and save the scene there."""
-        start = str(Path.home() / tr("{name}.png", name=self._session.robot.name))
+        start = str(Path.home() / f"{self._session.robot.name}.png")
         file, _ = QFileDialog.getSaveFileName(self._window, tr("Save picture"), start, tr("Pictures (*.png *.jpg)"))
         if file:
             self._write(Path(file), lambda path: save_image(self._window.scene_view.image(), path))
@@ -281,7 +281,7 @@ class Commands(QObject):
         tracking = self._session.tracking
         if tracking is None:
             return
-        start = str(Path.home() / tr("{name}-{name2}.csv", name=tracking.robot.name, name2=tracking.path.name))
+        start = str(Path.home() / f"{tracking.robot.name}-{tracking.path.name}.csv")
         file, _ = QFileDialog.getSaveFileName(self._window, tr("Save path as CSV"), start, tr("Tables (*.csv)"))
         if file:
             self._write(Path(file), lambda path: write_atomically(path, tracking_csv(tracking).encode()))
@@ -318,13 +318,12 @@ class Commands(QObject):
     def show_shortcuts(self) -> None:
         """All shortcuts in one table."""
         rows = "".join(
-            f"<tr><td>{menu}</td><td>&nbsp;{text}&nbsp;</td><td><b>{keys}</b></td></tr>"
+            f"<tr><td>{menu}</td><td>&nbsp;{text}&nbsp;</td><td><b>{left_to_right(keys)}</b></td></tr>"
             for menu, text, keys in shortcut_table(self._window)
         )
-        extra = (
-            "<p>In a value box: ↑ ↓ step 1, with Shift 10, with Ctrl 0.1. In the scene: arrows turn, + and − zoom.</p>"
-        )
-        self._tell(tr("Keyboard shortcuts"), f"<table>{rows}</table>{extra}")
+        boxes = tr("In a value box: ↑ ↓ step 1, with Shift 10, with Ctrl 0.1.")
+        scene = tr("In the scene: arrows turn, + and − zoom.")
+        self._tell(tr("Keyboard shortcuts"), f"<table>{rows}</table><p>{boxes} {scene}</p>")
 
     def show_help(self, page: str = "") -> None:
         """A page of the help; "" for that of the panel in which the focus is."""

@@ -19,6 +19,7 @@ from PySide6.QtCore import QMessageLogContext, QObject, Qt, QtMsgType, Signal, q
 from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rvsim.errors import RvsimError
+from rvsim.language import tr, trn
 
 _LOG = logging.getLogger("rvsim")
 _QT_LEVELS = {
@@ -83,22 +84,27 @@ class CrashReporter(QObject):
     def _sentence(self, kind: type[BaseException], error: BaseException) -> str:
         if isinstance(error, RvsimError):
             return str(error)
-        where = f" It is written down in {self._log_file}." if self._log_file else ""
+        sentences = tr(
+            "Something went wrong inside rvsim ({kind}), and the last action may not have been carried out. "
+            "Your work is still here and you can go on.",
+            kind=kind.__name__,
+        )
         return (
-            f"Something went wrong inside rvsim ({kind.__name__}), and the last action may not have been carried out."
-            f" Your work is still here and you can go on.{where}"
+            f"{sentences} {tr('It is written down in {file}.', file=self._log_file)}" if self._log_file else sentences
         )
 
     def _show(self, sentence: str, details: str) -> None:
         if self._dialog is not None:
             self._more += 1
-            self._dialog.setInformativeText(f"It has happened {self._more + 1} times meanwhile.")
+            self._dialog.setInformativeText(
+                trn("It has happened {n} time meanwhile.", "It has happened {n} times meanwhile.", self._more + 1)
+            )
             return
         self._more = 0
         dialog = QMessageBox(QMessageBox.Icon.Warning, "rvsim", sentence, parent=self.parent_widget())
         dialog.setObjectName("error_dialog")
         dialog.setDetailedText(details)
-        dialog.addButton("Go on", QMessageBox.ButtonRole.AcceptRole)
+        dialog.addButton(tr("Go on"), QMessageBox.ButtonRole.AcceptRole)
         dialog.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.finished.connect(self._closed)

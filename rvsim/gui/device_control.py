@@ -37,7 +37,6 @@ if TYPE_CHECKING:
 _POLL_MS = 33
 _AT_START = 2e-3  # [rad]: a motion begins only where the arm is
 _VIRTUAL = tr_later("Virtual arm")
-_CLOSED = tr_later("The window was closed.")
 _RECOVERED = {
     "stopped": tr_later("The stop is reset. Nothing has moved by that; Run begins a motion from its start."),
     "lost": tr_later("Connecting again …"),
@@ -132,14 +131,9 @@ class DeviceControl(QObject):
         self.disconnect_device()
         robot = self._session.robot
         if not robot.servos:
-            self._session.say(
-                tr(
-                    "The {title} has no servos in its robot file. Take the Lynxmotion AL5B, or an arm of yours "
-                    "with [[servo]] tables.",
-                    title=robot.title,
-                ),
-                "error",
-            )
+            why = tr("The {arm} has no servos in its robot file.", arm=robot.title)
+            advice = tr("Take the Lynxmotion AL5B, or an arm of yours with [[servo]] tables.")
+            self._session.say(f"{why} {advice}", "error")
             return
         limits = ServoLimits(robot)
         try:
@@ -156,7 +150,7 @@ class DeviceControl(QObject):
         self._session.servo_limits = limits
         self._news = narrowing_sentence(robot, narrowed)
         if narrowed is not robot:
-            self._take_limits(_NARROW, narrowed)
+            self._take_limits(tr(_NARROW), narrowed)
         self._tell(driver.connect())
         self._timer.start()
         self.poll()
@@ -192,7 +186,7 @@ class DeviceControl(QObject):
     def close(self) -> None:
         """The window closes: stop the arm first."""
         if self._driver is not None:
-            self._driver.stop(_CLOSED)
+            self._driver.stop(tr("The window was closed."))
         self.disconnect_device()
 
     def poll(self) -> None:
@@ -239,7 +233,7 @@ class DeviceControl(QObject):
             move = joint_move(self._session.robot, here, there)
             against = objections(self._session.robot, move, self._units, table=self.table)
             if against:
-                self._session.say(tr("Not sent: ") + " ".join(against), "error")
+                self._session.say(tr("Not sent: {reasons}", reasons=" ".join(against)), "error")
                 return False
         return self._tell(self._driver.move_to(there))
 
@@ -275,7 +269,7 @@ class DeviceControl(QObject):
         here = self._state.commanded_q  # from there it goes to the motion's start
         against = objections(self._session.robot, motion, self._units, table=self.table, here=here)
         if against:
-            self._session.say(tr("Not run on the arm: ") + " ".join(against), "error")
+            self._session.say(tr("Not run on the arm: {reasons}", reasons=" ".join(against)), "error")
             return
         self.set_live(False)
         self._motion.pause()
@@ -341,10 +335,10 @@ class DeviceControl(QObject):
             return
         if narrowed is self._session.robot:
             return
-        if self._session.undo_stack.redoText() == _NARROW:
+        if self._session.undo_stack.redoText() == tr(_NARROW):
             self._session.undo_stack.redo()
         else:
-            self._take_limits(_NARROW, narrowed)
+            self._take_limits(tr(_NARROW), narrowed)
         self._session.say(
             tr("While an arm is connected the limits of its servos count. Disconnect it to go beyond them.")
         )
@@ -399,11 +393,10 @@ class DeviceControl(QObject):
         elif before is not None and (before.phase, state.phase) == ("running", "ready"):
             self._session.say(tr("The arm has done the motion. The Measured page compares what came back."))
         elif before is not None and before.phase in ("stopped", "lost") and state.phase not in ("stopped", "lost"):
-            self._session.say(_RECOVERED[before.phase])
+            self._session.say(tr(_RECOVERED[before.phase]))
         elif state.clamped:
-            self._session.warn(
-                tr("Held at the limits of {clamped}: the arm does not go there.", clamped=", ".join(state.clamped))
-            )
+            joints = tr(", ").join(map(tr, state.clamped))
+            self._session.warn(tr("Held at the limits of {joints}: the arm does not go there.", joints=joints))
 
     def _on_settled(self, before: Experiment, after: Experiment) -> None:
         if self._driver is None:

@@ -9,12 +9,11 @@ from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.served_arm import ServedArm
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
-from rvsim.language import tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.ghosts import Ghost, ghost_items
 
-LAYER = tr_later("arm on the wire")
+LAYER = "arm on the wire"
 _FRAME_MS = 33
 _SAME = 1e-5  # [rad]: closer than that nobody sees a change
 

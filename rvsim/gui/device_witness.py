@@ -48,14 +48,24 @@ class Witness:
 
     def words(self, driver: ArmDriver, is_virtual: bool) -> str:
         """How the motion was run, in sentences."""
-        where = tr("rvsim’s virtual arm") if is_virtual else tr("the arm at {url}", url=driver.url)
+        controller = tr(LANGUAGE_WORDS[driver.language])
+        if not is_virtual:
+            return tr(
+                "It ran on the arm at {port} (controller: {controller}; {baud} baud).",
+                port=driver.url,
+                controller=controller,
+                baud=driver.baud,
+            )
         how = tr(
-            "It ran on {where} (controller: {language}; {baud} baud).",
-            where=where,
-            language=LANGUAGE_WORDS[driver.language],
+            "It ran on rvsim’s virtual arm (controller: {controller}; {baud} baud).",
+            controller=controller,
             baud=driver.baud,
         )
-        if not is_virtual:
-            return how
-        faults = ", ".join(sorted(self._faults))
-        return tr("{how} Faults that were switched on: {value}.", how=how, value=faults or "none")
+        return f"{how} {self._fault_words()}"
+
+    def _fault_words(self) -> str:
+        if not self._faults:
+            return tr("Faults that were switched on: none.")
+        return tr(
+            "Faults that were switched on: {faults}.", faults=tr(", ").join(tr(fault) for fault in sorted(self._faults))
+        )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rvsim.device.driver.state import DriverState, Phase
-from rvsim.language import tr_later
+from rvsim.language import tr, tr_later
 
 _WORDS: dict[Phase, str] = {
     "disconnected": tr_later("Not connected"),
@@ -13,7 +13,7 @@ _WORDS: dict[Phase, str] = {
     "moving": tr_later("Moving"),
     "streaming": tr_later("Following"),
     "running": tr_later("Running"),
-    "stopped": "STOPPED",
+    "stopped": tr_later("STOPPED"),
     "lost": tr_later("Connection lost"),
 }
 _LEVELS: dict[Phase, str] = {
@@ -27,11 +27,11 @@ LANGUAGE_WORDS = {"ssc32": tr_later("SSC-32, SSC-32U"), "bridge": tr_later("Enco
 def phase_words(state: DriverState | None, title: str) -> str:
     """A line for the panel and the status bar: "Virtual AL5B: ready"."""
     if state is None:
-        return _WORDS["disconnected"]
-    words = _WORDS[state.phase]
+        return tr(_WORDS["disconnected"])
+    words = tr(_WORDS[state.phase])
     if state.phase == "running":
-        words = f"{words}, {state.time:.1f} of {state.duration:.1f} s"
-    return f"{title}: {words}" if title else words
+        words = tr("Running, {time:.1f} of {duration:.1f} s", time=state.time, duration=state.duration)
+    return f"{tr(title)}: {words}" if title else words
 
 
 def phase_level(phase: str) -> str:

@@ -24,7 +24,6 @@ from rvsim.language import tr, tr_later
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
 
-_FILTER = f"Sessions of rvsim (*{ENDING})"
 _UNTITLED = tr_later("Untitled")
 Then = Callable[[], object]
 
@@ -83,16 +82,11 @@ class Document(QObject):
     @property
     def name(self) -> str:
         """What the session is called."""
-        return self.path.stem if self.path is not None else _UNTITLED
+        return self.path.stem if self.path is not None else tr(_UNTITLED)
 
     def show_title(self) -> None:
         """The window's title: "name* – RV-M1 – rvsim"."""
-        title = tr(
-            "{name}{value} \u2013 {title} \u2013 rvsim",
-            name=self.name,
-            value="*" if self.dirty else "",
-            title=self._session.robot.title,
-        )
+        title = f"{self.name}{'*' if self.dirty else ''} \u2013 {self._session.robot.title} \u2013 rvsim"
         self._window.setWindowTitle(title.replace("[*]", "[*][*]"))
 
     def _on_clean(self, clean: bool) -> None:
@@ -164,7 +158,7 @@ class Document(QObject):
         self.leave(self._ask_open)
 
     def _ask_open(self) -> None:
-        file, _ = QFileDialog.getOpenFileName(self._window, tr("Open session"), str(self._folder()), _FILTER)
+        file, _ = QFileDialog.getOpenFileName(self._window, tr("Open session"), str(self._folder()), _filter())
         if file:
             self.open(Path(file))
 
@@ -219,7 +213,7 @@ class Document(QObject):
 
     def save_as(self) -> bool:
         """Ask where, and save there; whether it is saved."""
-        dialog = QFileDialog(self._window, tr("Save session as"), str(self._folder()), _FILTER)
+        dialog = QFileDialog(self._window, tr("Save session as"), str(self._folder()), _filter())
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix(ENDING.removeprefix("."))
         dialog.selectFile(f"{self.path.stem if self.path else self._session.robot.name}{ENDING}")
@@ -238,10 +232,8 @@ class Document(QObject):
         try:
             save_session(state, file)
         except RvsimError as problem:
-            self._fail(
-                tr("Not saved: your work is still here."),
-                tr("{problem} Try another place, with “Save as”.", problem=problem),
-            )
+            advice = tr("Try another place, with “Save as”.")
+            self._fail(tr("Not saved: your work is still here."), f"{problem} {advice}")
             return False
         self._became(file.absolute())
         self.recent.add(file)
@@ -265,6 +257,11 @@ class Document(QObject):
             return None
         mark = (self._session.experiment, self.path, *self._session.left, *vars(self._port.settings).values())
         return Copied(mark, self.path, lambda: session_bytes(state_of(self._window)))
+
+
+def _filter() -> str:
+    """Of the dialogs that ask for a file."""
+    return tr("Sessions of rvsim (*{ending})", ending=ENDING)
 
 
 def _is_same(file: Path, other: Path) -> bool:

@@ -28,7 +28,7 @@ class EmergencyStop(QObject):
         self.button.setObjectName("emergency_stop_button")
         self.button.setText(tr("● STOP  Esc"))
         self.button.setAccessibleName(tr("Emergency stop"))
-        self.button.setToolTip(_TIP)
+        self.button.setToolTip(tr(_TIP))
         set_role(self.button, role="stop")
         # When it goes down, not when it is let go: somebody may be holding the arm.
         self.button.pressed.connect(lambda: self.stop(tr("The stop button was pressed.")))

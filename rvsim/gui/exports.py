@@ -72,8 +72,7 @@ def write_export(session: Session, path: Path, text: str) -> None:
     try:
         write_atomically(path, text.encode())
     except OSError as problem:
-        session.say(
-            tr("Not saved: {path} cannot be written ({value}).", path=path, value=problem.strerror or problem), "error"
-        )
+        reason = problem.strerror or problem
+        session.say(tr("Not saved: {path} cannot be written ({reason}).", path=path, reason=reason), "error")
         return
     session.say(tr("Saved {path}.", path=path))

@@ -18,8 +18,6 @@ from xml.etree import ElementTree
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QPainterPath, QTransform
 
-from rvsim.language import tr
-
 SIZE = 16.0  # the font size formulas are set at; they are scaled from there
 _DIGIT = 7.92  # how wide every digit is at that size
 _KEPT = 1500  # formulas and shapes that are remembered
@@ -202,9 +200,9 @@ def _digits_and_signs(shape: str) -> Iterator[tuple[str, int]]:
 
 def _parsed(svg: ElementTree.Element, waiting: deque[tuple[str, int]]) -> _Layout:
     """The layout of a picture, its digits and signs matched in order with those of the formula."""
-    symbols = {f"#{symbol.get('id')}": symbol for symbol in svg.iter(tr("{svg}symbol", svg=_SVG))}
+    symbols = {f"#{symbol.get('id')}": symbol for symbol in svg.iter(f"{_SVG}symbol")}
     glyphs = []
-    for use in svg.iter(tr("{svg}use", svg=_SVG)):
+    for use in svg.iter(f"{_SVG}use"):
         name, place = use.get("href", ""), -1
         sign = _sign_names().get(name)
         if sign:
@@ -212,7 +210,7 @@ def _parsed(svg: ElementTree.Element, waiting: deque[tuple[str, int]]) -> _Layou
             if sign != wanted:
                 raise ValueError(f"{wanted} expected, {sign} found")
         glyphs.append(_Glyph(_symbol_outline(symbols[name]), _placing(use, symbols[name]), place))
-    rules = tuple(QRectF(*_numbers(rule, "x", "y", "width", "height")) for rule in svg.iter(tr("{svg}rect", svg=_SVG)))
+    rules = tuple(QRectF(*_numbers(rule, "x", "y", "width", "height")) for rule in svg.iter(f"{_SVG}rect"))
     return _Layout(tuple(glyphs), rules, QRectF(*map(float, svg.get("viewBox", "").split())))
 
 
@@ -235,8 +233,8 @@ def _samples() -> tuple[dict[str, str], dict[str, QPainterPath]]:
     outlines: dict[str, QPainterPath] = {}
     for latex, signs in (("-0123456789", "-0123456789"), ("x_{0123456789-}", "x0123456789-")):
         svg = _svg(latex)
-        symbols = {f"#{symbol.get('id')}": symbol for symbol in svg.iter(tr("{svg}symbol", svg=_SVG))}
-        for use, sign in zip(svg.iter(tr("{svg}use", svg=_SVG)), signs, strict=True):
+        symbols = {f"#{symbol.get('id')}": symbol for symbol in svg.iter(f"{_SVG}symbol")}
+        for use, sign in zip(svg.iter(f"{_SVG}use"), signs, strict=True):
             names[use.get("href", "")] = sign
             outlines.setdefault(sign, _symbol_outline(symbols[use.get("href", "")]))
     return {name: sign for name, sign in names.items() if sign != "x"}, outlines
@@ -252,7 +250,7 @@ def _outline(digit: str) -> QPainterPath:
 
 def _symbol_outline(symbol: ElementTree.Element) -> QPainterPath:
     # A bracket that is taller than any the font has is put together from several pieces.
-    return _painter_path(" ".join(drawn.get("d", "") for drawn in symbol.iter(tr("{svg}path", svg=_SVG))))
+    return _painter_path(" ".join(drawn.get("d", "") for drawn in symbol.iter(f"{_SVG}path")))
 
 
 @lru_cache(maxsize=_KEPT)

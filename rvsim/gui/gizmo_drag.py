@@ -123,9 +123,10 @@ class GizmoDrag(QObject):
         if on == self._tool_axes or self._grip is not None:
             return
         self._tool_axes = on
-        whose, other = (tr("tool's own"), "base's") if on else ("base's", tr("tool's own"))
         self._control.session.say(
-            tr("The arrows lie along the {whose} axes. Press T for the {other}.", whose=whose, other=other)
+            tr("The arrows lie along the tool's own axes. Press T for the base's.")
+            if on
+            else tr("The arrows lie along the base's axes. Press T for the tool's own.")
         )
         self.axes_switched.emit(on)
         self._show()
@@ -175,7 +176,7 @@ class GizmoDrag(QObject):
         where = dragged(self._grip, self._ray(at), self._amount, snap)
         if where is not None:
             self._amount = where.amount
-            self._wish(where.T, self._text(), tr("drag the target"))
+            self._wish(where.T, self._text(), "drag the target")
 
     def release(self) -> None:
         """Let go: the drag becomes one step of undo."""
@@ -192,7 +193,7 @@ class GizmoDrag(QObject):
         if self._grip is None:
             return False
         text, self._grip = self._text(), None
-        self._control.take_back(self._before, text, tr("drag the target"))
+        self._control.take_back(self._before, text, "drag the target")
         self._control.session.end_stroke()
         self._show()
         return True
@@ -232,7 +233,7 @@ class GizmoDrag(QObject):
         scale = next((scale for modifier, scale in _NUDGE.items() if modifiers & modifier), 1.0)
         length = scale * _STEP[self._control.session.robot.length_unit]
         self._control.flush()
-        self._wish(moved(self._control.T, length * step), tr("Nudge the tool"), tr("nudge the target"))
+        self._wish(moved(self._control.T, length * step), tr("Nudge the tool"), "nudge the target")
         return True
 
     def _step(self, key: Qt.Key) -> FloatArray | None:

@@ -43,14 +43,14 @@ from rvsim.lab.table_import import (
     times_in,
     wanted_columns,
 )
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.motion.recorded import motion_through
 from rvsim.robot.arrays import FloatArray
 
 _CONTENTS = {"joints": tr_later("Joints of the arm"), "points": tr_later("Points of the tool")}
-_DELIMITERS = {",": "Comma", ";": "Semicolon", "\t": "Tab", " ": tr_later("Blanks")}
-_ANGLES = {"deg": "degrees", "rad": "radians"}
-_LENGTHS = {"mm": "millimetres", "m": "metres", "unit": tr_later("the arm's unit")}
+_DELIMITERS = {",": tr_later("Comma"), ";": tr_later("Semicolon"), "\t": tr_later("Tab"), " ": tr_later("Blanks")}
+_ANGLES = {"deg": tr_later("degrees"), "rad": tr_later("radians")}
+_LENGTHS = {"mm": tr_later("millimetres"), "m": tr_later("metres"), "unit": tr_later("the arm's unit")}
 _USES = {
     "joints": {
         "motion": tr_later("Play it as one motion"),
@@ -70,7 +70,7 @@ _FILES = tr_later("Tables (*.csv *.txt *.tsv);;All files (*)")
 
 def ask_import(parent: QWidget, session: Session, motion: MotionControl, tracker: PathTracker) -> None:
     """Ask for a file and open the dialog for it; a file without a table is told of in the status line."""
-    file, _ = QFileDialog.getOpenFileName(parent, tr("Import joints or points"), str(Path.home()), _FILES)
+    file, _ = QFileDialog.getOpenFileName(parent, tr("Import joints or points"), str(Path.home()), tr(_FILES))
     if file:
         open_import(parent, session, motion, tracker, Path(file))
 
@@ -101,7 +101,7 @@ class ImportDialog(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setObjectName("import_dialog")
-        self.setWindowTitle(tr("Import {name}", name=file.name))
+        self.setWindowTitle(tr("Import {file}", file=file.name))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._motion, self._tracker = session, motion, tracker
         self._robot, self._path, self._text = session.robot, file, read_text(file)
@@ -137,6 +137,7 @@ class ImportDialog(QDialog):
         self.preview.setAccessibleName(tr("First rows of the file"))
         self.preview.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.preview.setMinimumHeight(150)
+        self.preview.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.summary = wrapped_label("muted")
         self.summary.setObjectName("import_summary")
         self._mapping = QGridLayout()
@@ -240,12 +241,12 @@ class ImportDialog(QDialog):
         with QSignalBlocker(self.use_box):
             self.use_box.clear()
             for use, text in _USES[self.content].items():
-                self.use_box.addItem(text, use)
+                self.use_box.addItem(tr(text), use)
         self._try()
 
     def _column_box(self, number: int, guess: int) -> QComboBox:
         names = dict(enumerate(self.table.names))
-        box = combo(f"import_column_{number + 1}", tr("Column of {name}", name=self.wanted[number].name))
+        box = combo(f"import_column_{number + 1}", tr("Column of {value}", value=self.wanted[number].name))
         box.setMinimumContentsLength(4)
         for index, name in names.items():
             box.addItem(name, index)
@@ -291,8 +292,11 @@ class ImportDialog(QDialog):
         except PathFileError as problem:
             self._say(str(problem), bad=True)
             return
-        what = "poses" if self.content == "joints" else "points"
-        self._say(f"{len(values)} {what}.", bad=False)
+        count = len(values)
+        joints = self.content == "joints"
+        self._say(
+            trn("{n} pose.", "{n} poses.", count) if joints else trn("{n} point.", "{n} points.", count), bad=False
+        )
 
     def _values(self) -> FloatArray:
         if self.content == "points":
@@ -326,13 +330,14 @@ class ImportDialog(QDialog):
         motion = motion_through(self._robot, experiment.q, q, self._times(), law=experiment.law)
         self._tracker.cancel()
         self._tracker.clear()
-        self._motion.load(motion, tr("Play {name}", name=self._path.name))
+        self._motion.load(motion, tr("Play {file}", file=self._path.name))
         self._motion.play()
         self._session.say(
-            tr(
-                "{count} poses from {name}, {duration:.1f} s.",
-                count=len(q),
-                name=self._path.name,
+            trn(
+                "{n} pose from {file}, {duration:.1f} s.",
+                "{n} poses from {file}, {duration:.1f} s.",
+                len(q),
+                file=self._path.name,
                 duration=motion.duration,
             )
         )
@@ -341,10 +346,15 @@ class ImportDialog(QDialog):
         moves = moves_through(self.table, self._values(), self.content)
         experiment = self._session.experiment
         self._session.edit(
-            tr("Import {name}", name=self._path.name), replace(experiment, program=(*experiment.program, *moves))
+            tr("Import {file}", file=self._path.name), replace(experiment, program=(*experiment.program, *moves))
         )
         self._session.say(
-            tr("{count} moves from {name}, behind those of the program.", count=len(moves), name=self._path.name)
+            trn(
+                "{n} move from {file}, behind those of the program.",
+                "{n} moves from {file}, behind those of the program.",
+                len(moves),
+                file=self._path.name,
+            )
         )
 
     def _take_path(self) -> None:
@@ -353,17 +363,18 @@ class ImportDialog(QDialog):
             raise PathFileError(
                 self._path,
                 tr("the file"),
-                tr("{count} points", count=len(points)),
-                tr("at most {most_points} for a path", most_points=_MOST_POINTS),
+                trn("{n} point", "{n} points", len(points)),
+                tr("at most {most} for a path", most=_MOST_POINTS),
             )
         task = TrajectoryTask("points", "source", shape=PointsShape(points, "none" if len(points) > 2 else "lines"))
         self._session.edit(
-            tr("Import {name}", name=self._path.name), replace(self._session.experiment, trajectory=task)
+            tr("Import {file}", file=self._path.name), replace(self._session.experiment, trajectory=task)
         )
         self._session.say(
-            tr(
-                "{count} points from {name}: track the trajectory to see what is reached.",
-                count=len(points),
-                name=self._path.name,
+            trn(
+                "{n} point from {file}: track the trajectory to see what is reached.",
+                "{n} points from {file}: track the trajectory to see what is reached.",
+                len(points),
+                file=self._path.name,
             )
         )

@@ -11,6 +11,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number
 from rvsim.gui.theme import number_font
 from rvsim.gui.widgets import PaintedLines
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.palette import axis_colors
 from rvsim.scene.primitives import Color
@@ -34,7 +35,8 @@ class MatrixView(PaintedLines):
         self._matrix: FloatArray = np.eye(4)
         self._kind: Kind = "length"
         self._cells: list[list[str]] = []
-        self.setAccessibleName(title)
+        self.setAccessibleName(tr(title))
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.show_matrix(self._matrix, self._kind)
 
     def show_matrix(self, matrix: FloatArray, length: Kind) -> None:

@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QMessageBox, QScrollAre
 from pytestqt.qtbot import QtBot
 
 from rvsim.files import load_robot, save_robot
-from rvsim.gui.actions import ACTIONS, shortcut_table
+from rvsim.gui.action_table import ACTIONS
+from rvsim.gui.actions import shortcut_table
 from rvsim.gui.app import build_window
 from rvsim.gui.commands import SWITCHES
 from rvsim.gui.main_window import MainWindow

@@ -18,15 +18,17 @@ from rvsim.robot.arrays import FloatArray
 _AXIS_COLORS = ("#D55E00", "#009E73", "#0072B2")
 _TOOL_COLOR, _OFF_COLOR = "#0072B2", "#B5179E"
 NEAR_SINGULAR = 0.02  # σ below it is marked
+_TORQUE, _DEVIATION = tr_later("Torque"), tr_later("Deviation")
 
 
 class Line(NamedTuple):
-    """One curve in shown units: its name, "#rrggbb", values (m,), and whether it is dashed."""
+    """One curve in shown units: its name, "#rrggbb", values (m,), whether it is dashed, and its name in short."""
 
     name: str
     color: str
     values: FloatArray
     dashed: bool = False
+    sign: str = ""
 
 
 class Band(NamedTuple):
@@ -39,7 +41,7 @@ class Band(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """One plot: title, unit, curves, and limits; `empty` says why there are none."""
+    """One plot: title, said when it is shown, unit, curves, and limits; `empty` says why there are none."""
 
     title: str
     unit: str
@@ -59,7 +61,7 @@ class PlotKind(NamedTuple):
 
 def _joint_lines(curves: Curves, values: FloatArray, factors: list[float]) -> tuple[Line, ...]:
     return tuple(
-        Line(f"J{i + 1} {joint.name}", joint.color, values[:, i] * factors[i])
+        Line(f"J{i + 1} {tr(joint.name)}", joint.color, values[:, i] * factors[i], sign=f"J{i + 1}")
         for i, joint in enumerate(curves.robot.joints)
     )
 
@@ -80,7 +82,7 @@ def _joints(curves: Curves, preferences: Preferences) -> Drawing:
         Band(joint.color, joint.lower * factor, joint.upper * factor)
         for joint, factor in zip(curves.robot.joints, factors, strict=True)
     )
-    return Drawing(tr("Joints q"), unit, _joint_lines(curves, curves.q, factors), bands)
+    return Drawing(tr_later("Joints q"), unit, _joint_lines(curves, curves.q, factors), bands)
 
 
 def _rates(title: str, order: str, below: str, limit: str = "") -> Callable[[Curves, Preferences], Drawing]:
@@ -107,37 +109,39 @@ def _place(curves: Curves, preferences: Preferences) -> Drawing:
             Line(tr("{axis} wanted", axis=axis), color, curves.desired[:, i] * shown.factor, dashed=True)
             for i, (axis, color) in enumerate(zip("xyz", _AXIS_COLORS, strict=True))
         ]
-    return Drawing(tr("Tool position"), shown.suffix.strip(), tuple(found))
+    return Drawing(tr_later("Tool position"), shown.suffix.strip(), tuple(found))
 
 
 def _speed(curves: Curves, preferences: Preferences) -> Drawing:
     shown = display(length_kind(curves.robot), preferences)
     return Drawing(
-        tr("Tool speed"), f"{shown.suffix.strip()}/s", (Line("speed", _TOOL_COLOR, curves.speed * shown.factor),)
+        tr_later("Tool speed"),
+        f"{shown.suffix.strip()}/s",
+        (Line(tr("speed"), _TOOL_COLOR, curves.speed * shown.factor),),
     )
 
 
 def _torque(curves: Curves, _preferences: Preferences) -> Drawing:
     if curves.torque is None:
-        why = tr("No mass data for the {title}: enter it under Inspect › Dynamics.", title=curves.robot.title)
-        return Drawing(tr("Torque"), "N m", empty=why)
+        why = tr("No mass data for the {arm}: enter it under Inspect › Dynamics.", arm=curves.robot.title)
+        return Drawing(_TORQUE, "N m", empty=why)
     unit = "N m" if curves.robot.is_revolute.all() else "N m, N"
     bands = []
     for joint in curves.robot.joints:
         most = math.inf if joint.max_torque is None else joint.max_torque.value
         bands.append(Band(joint.color, -most, most))
-    return Drawing(tr("Torque"), unit, _joint_lines(curves, curves.torque, [1.0] * curves.robot.dof), tuple(bands))
+    return Drawing(_TORQUE, unit, _joint_lines(curves, curves.torque, [1.0] * curves.robot.dof), tuple(bands))
 
 
 def _sigma(curves: Curves, _preferences: Preferences) -> Drawing:
-    line = Line("σ min", _TOOL_COLOR, curves.sigma_min)
-    return Drawing(tr("Smallest σ of J"), "", (line,), (Band("#D55E00", NEAR_SINGULAR, math.inf),))
+    line = Line("σ min", _TOOL_COLOR, curves.sigma_min, sign="σ")
+    return Drawing(tr_later("Smallest σ of J"), "", (line,), (Band("#D55E00", NEAR_SINGULAR, math.inf),))
 
 
 def _deviation(curves: Curves, preferences: Preferences) -> Drawing:
     offset, deviation = curves.offset, curves.deviation
     if offset is None or deviation is None:
-        return Drawing(tr("Deviation"), "", empty=tr("No path: track a line or a trajectory first."))
+        return Drawing(_DEVIATION, "", empty=tr("No path: track a line or a trajectory first."))
     kind: Kind = length_kind(curves.robot)
     shown = display(kind, preferences)
     unit, factor = shown.suffix.strip(), shown.factor
@@ -145,7 +149,7 @@ def _deviation(curves: Curves, preferences: Preferences) -> Drawing:
     if kind == "length" and largest * shown.factor < 0.01:
         unit, factor = "µm", 1e6
     axes = (Line(f"Δ{axis}", _AXIS_COLORS[i], offset[:, i] * factor) for i, axis in enumerate("xyz"))
-    return Drawing(tr("Deviation"), unit, (Line("deviation", _OFF_COLOR, deviation * factor), *axes))
+    return Drawing(_DEVIATION, unit, (Line(tr("deviation"), _OFF_COLOR, deviation * factor), *axes))
 
 
 PLOTS: tuple[PlotKind, ...] = (

@@ -25,7 +25,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_number
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.motion import Trajectory
 from rvsim.playback.curves import Curves, curves_of
 
@@ -60,7 +60,7 @@ class PlotsPanel(QWidget):
         self.readout.setObjectName("plot_readout")
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.readout.setTextFormat(Qt.TextFormat.RichText)
-        self.empty = QLabel(_EMPTY)
+        self.empty = QLabel(tr(_EMPTY))
         self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.empty.setWordWrap(True)
         set_role(self.empty, role="muted")
@@ -78,9 +78,9 @@ class PlotsPanel(QWidget):
     def _button(self, kind: PlotKind) -> QToolButton:
         made = QToolButton()
         made.setObjectName(f"plot_{kind.name}_button")
-        made.setText(kind.sign)
-        made.setToolTip(kind.tip)
-        made.setAccessibleName(kind.tip)
+        made.setText(tr(kind.sign))
+        made.setToolTip(tr(kind.tip))
+        made.setAccessibleName(tr(kind.tip))
         made.setCheckable(True)
         made.setProperty("role", "page")
         made.setChecked(kind.name in self._preferences["plots"].split(","))
@@ -168,7 +168,7 @@ class PlotsPanel(QWidget):
         trajectory = self._motion.player.trajectory
         there = isinstance(trajectory, Trajectory)
         self.empty.setVisible(not there or not self.chosen)
-        self.empty.setText(_EMPTY if not there else tr("Choose above which curves are to be drawn."))
+        self.empty.setText(tr(_EMPTY) if not there else tr("Choose above which curves are to be drawn."))
         self._curves = None
         if isinstance(trajectory, Trajectory):
             self._curves = curves_of(self._session.robot, trajectory, self._session.tracking)
@@ -205,25 +205,25 @@ class PlotsPanel(QWidget):
         if plot is None:
             self.readout.clear()
             return
-        unit = f" {plot.drawing.unit}" if plot.drawing.unit else ""
+        signs = {line.name: line.sign or line.name for line in plot.drawing.lines}
         parts = [
-            f'<span style="color:{color}">■</span> {name.partition(" ")[0]} {format_number(value, _DECIMALS)}'
+            f'<span style="color:{color}">■</span> {signs[name]} {left_to_right(format_number(value, _DECIMALS))}'
             for name, color, value in plot.value_texts()
         ]
         largest = plot.largest()
         if largest is not None:
             name, value, time = largest
-            at = f"({name.partition(' ')[0]}, at {format_number(time, 2)} s)"
+            amount = f"{format_number(value, _DECIMALS)} {plot.drawing.unit}".rstrip()
             parts.append(
                 tr(
-                    "largest {format_number}{unit} {at}",
-                    format_number=format_number(value, _DECIMALS),
-                    unit=unit,
-                    at=at,
+                    "largest {value} ({curve}, at {time} s)",
+                    value=amount,
+                    curve=signs[name],
+                    time=format_number(time, 2),
                 )
             )
         self.readout.setText("&nbsp; ".join(parts))
-        self.readout.setToolTip(_READOUT_TIP)
+        self.readout.setToolTip(tr(_READOUT_TIP))
 
     def _read_from(self, name: str) -> None:
         """Read out the plot under the mouse."""

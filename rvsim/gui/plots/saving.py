@@ -45,9 +45,9 @@ def save_plot(plot: TimePlot, path: str | Path) -> None:
         raise FileWriteError(
             file,
             tr(
-                "“{suffix}” is no ending of a picture of curves. Known: {makers}",
-                suffix=file.suffix,
-                makers=", ".join(makers),
+                "“{ending}” is no ending of a picture of curves. Known: {known}",
+                ending=file.suffix,
+                known=", ".join(makers),
             ),
         )
     try:
@@ -73,9 +73,9 @@ def plot_menu(plot: TimePlot) -> QMenu:
 
 def ask_save_plot(plot: TimePlot, parent: QWidget | None = None) -> None:
     """Ask for a place and save it there."""
-    name = plot.accessibleName().split(" over")[0].replace(" ", "-") or "curves"
-    start = str(Path.home() / tr("{name}.png", name=name))
-    file, kind = QFileDialog.getSaveFileName(parent or plot.window(), tr("Save curves"), start, _KINDS)
+    name = plot.drawing.title.replace(" ", "-") or "curves"
+    start = str(Path.home() / f"{name}.png")
+    file, kind = QFileDialog.getSaveFileName(parent or plot.window(), tr("Save curves"), start, tr(_KINDS))
     if not file:
         return
     path = Path(file) if Path(file).suffix else Path(file).with_suffix(".svg" if "svg" in kind else ".png")

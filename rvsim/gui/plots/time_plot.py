@@ -26,7 +26,7 @@ from rvsim.gui.plots.catalogue import Band, Drawing, Line
 from rvsim.gui.plots.saving import plot_menu
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.theme import THEMES, Theme
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr
 from rvsim.robot.arrays import FloatArray
 
 _AXIS_WIDTH = 52
@@ -73,7 +73,7 @@ class TimePlot(QWidget):
     def show_drawing(self, drawing: Drawing, times: FloatArray, marks: tuple[float, ...]) -> None:
         """Show curves over times (m,) [s], with marks at some of them."""
         self._drawing, self._times, self._marks = drawing, times, marks
-        self.setAccessibleName(tr("{title} over time", title=drawing.title))
+        self.setAccessibleName(tr("{title} over time", title=tr(drawing.title)))
         self.repaint_curves()
 
     def set_time(self, time: float) -> None:
@@ -137,7 +137,7 @@ class TimePlot(QWidget):
         self.plot.showGrid(x=True, y=True, alpha=0.15)
         unit = f" [{self._drawing.unit}]" if self._drawing.unit else ""
         size = f"{self.font().pointSizeF():.1f}pt"
-        self.plot.setTitle(f"{self._drawing.title}{unit}", color=theme.text, size=size)
+        self.plot.setTitle(f"{tr(self._drawing.title)}{unit}", color=theme.text, size=size)
 
     def _is_near(self, band: Band) -> bool:
         """Whether its curve comes near to the limit: all limits of all joints at once would hide the curves."""
@@ -174,7 +174,7 @@ class TimePlot(QWidget):
             return
         view = self.plot.getViewBox().sceneBoundingRect()
         painter.setPen(QColor(theme.muted))
-        painter.drawText(QPointF(6.0, self.height() - 5.0), "t [s]")
+        painter.drawText(QPointF(6.0, self.height() - 5.0), left_to_right("t [s]"))
         for mark in self._marks:
             x = self._x_of(mark)
             painter.setPen(QColor(theme.error))

@@ -20,9 +20,9 @@ SOFTWARE_NAMES = (
     "softpipe",
     "swrast",
     "swiftshader",
-    tr_later("software rasterizer"),
+    "software rasterizer",
     "warp",
-    tr_later("basic render"),
+    "basic render",
 )
 _OLDEST = (2, 1)
 _SAMPLES = 4
@@ -61,28 +61,17 @@ def choose_renderer(wanted: str, platform_name: str, probe: Callable[[], OpenGLP
         probe: asks the system for OpenGL; called only if the answer can matter.
     """
     if wanted == "painter":
-        return Choice("painter", tr("The painter draws, as wished."), tr("OpenGL was not asked for"))
+        return Choice("painter", tr("The painter draws, as wished."), "OpenGL was not asked for")
     if platform_name in PLATFORMS_WITHOUT_OPENGL:
-        return _without_opengl(
-            wanted, tr("the platform {platform_name!r} has no OpenGL", platform_name=platform_name), ""
-        )
+        return _without_opengl(wanted, tr("the platform {platform!r} has no OpenGL", platform=platform_name), "")
     return _judge(wanted, probe())
 
 
 def _judge(wanted: str, probe: OpenGLProbe) -> Choice:
-    details = (
-        tr(
-            "OpenGL {version}.{version2}, {renderer}",
-            version=probe.version[0],
-            version2=probe.version[1],
-            renderer=probe.renderer,
-        )
-        if probe.current
-        else ""
-    )
+    details = "OpenGL {}.{}, {}".format(*probe.version, probe.renderer) if probe.current else ""
     for holds, obstacle in _OBSTACLES:
         if holds(probe):
-            return _without_opengl(wanted, obstacle, details)
+            return _without_opengl(wanted, tr(obstacle), details)
     if not is_software(probe):
         return Choice("gl", tr("OpenGL draws on the graphics card."), details, _SAMPLES)
     if wanted == "gl":
@@ -91,8 +80,11 @@ def _judge(wanted: str, probe: OpenGLProbe) -> Choice:
 
 
 def _without_opengl(wanted: str, obstacle: str, details: str) -> Choice:
-    wish = tr("OpenGL was wished, but ") if wanted == "gl" else ""
-    return Choice("painter", tr("The painter draws: {wish}{obstacle}.", wish=wish, obstacle=obstacle), details)
+    if wanted == "gl":
+        reason = tr("The painter draws: OpenGL was wished, but {obstacle}.", obstacle=obstacle)
+    else:
+        reason = tr("The painter draws: {obstacle}.", obstacle=obstacle)
+    return Choice("painter", reason, details)
 
 
 def renderer_factory(choice: Choice, on_change: Callable[[str], None] | None = None) -> Callable[[QWidget], Renderer]:

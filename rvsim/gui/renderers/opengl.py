@@ -279,12 +279,7 @@ class OpenGLRenderer:
         self._view = OpenGLView(parent, samples)
         probe = probe_opengl()
         self.name = "opengl"
-        self.description = tr(
-            "OpenGL {version}.{version2}, {renderer}",
-            version=probe.version[0],
-            version2=probe.version[1],
-            renderer=probe.renderer,
-        )
+        self.description = "OpenGL {}.{}, {}".format(*probe.version, probe.renderer)
         self.failed = self._view.failed
 
     def widget(self) -> QWidget:

@@ -6,7 +6,7 @@ from PySide6.QtGui import QOpenGLContext, QSurfaceFormat
 from PySide6.QtOpenGL import QOpenGLShader, QOpenGLShaderProgram
 
 from rvsim.errors import RvsimError
-from rvsim.language import tr, tr_later
+from rvsim.language import tr
 
 _CORE = QSurfaceFormat.OpenGLContextProfile.CoreProfile
 _OLD_WORDS = {"vertex": "#version 120\n", "fragment": "#version 120\n#define result gl_FragColor\n"}
@@ -16,7 +16,7 @@ _CORE_WORDS = {
 }
 
 # A body is stretched here, before it is placed: `end` moves one half of a capsule away, so that its caps stay round.
-BODY_VERTEX = tr_later("""
+BODY_VERTEX = """
 uniform mat4 model_view;
 uniform mat4 projection;
 uniform vec3 scale;
@@ -33,7 +33,7 @@ void main() {
     eye_normal = (model_view * vec4(normal, 0.0)).xyz;
     gl_Position = projection * (model_view * vec4(position * scale + vec3(0.0, 0.0, stretch * end), 1.0));
 }
-""")
+"""
 
 # The light of the painter (painter_light.py): fixed to the viewer's upper left, matt with a soft highlight, and a sky.
 BODY_FRAGMENT = """
@@ -174,14 +174,14 @@ void main() {
 
 
 # A tent of nine taps along one direction: as two box blurs of five. Without a stride, the picture as it is.
-BLUR_VERTEX = tr_later("""
+BLUR_VERTEX = """
 attribute vec2 corner;
 varying vec2 place;
 void main() {
     place = 0.5 * corner + 0.5;
     gl_Position = vec4(corner, 0.0, 1.0);
 }
-""")
+"""
 
 BLUR_FRAGMENT = """
 uniform sampler2D picture;
@@ -210,9 +210,9 @@ class ShaderError(RvsimError):
         self.name, self.log = name, log
         super().__init__(
             tr(
-                "the driver refuses the shader {name!r}: {value}",
+                "the driver refuses the shader {name!r}: {reason}",
                 name=name,
-                value=log.strip() or tr("it gives no reason"),
+                reason=log.strip() or tr("it gives no reason"),
             )
         )
 
