@@ -31,6 +31,7 @@ from rvsim.device.calibration.marks import MarkPlan, mark_plan, usual_range
 from rvsim.device.calibration.results import Change, Result, gripper_result, joint_result
 from rvsim.device.calibration.sag import sag_of
 from rvsim.device.calibration.steps import Stage, Step
+from rvsim.device.words import axis_name
 from rvsim.errors import RobotDefinitionError, ShapeError
 from rvsim.language import tr
 from rvsim.robot import GripperServo, Robot, Servo
@@ -232,7 +233,7 @@ class CalibrationWizard:
 
     def _step(self, joint: int | None, stage: Stage) -> Step:
         plan = self._plan(joint)
-        name = "gripper" if joint is None else self.robot.joints[joint].name
+        name = axis_name(self.robot, self.robot.dof if joint is None else joint)
         index = _FIRST_LAST.get(stage, 0)
         value = plan.values[index] if stage in steps.POSES else None
         return Step(

@@ -18,7 +18,7 @@ from rvsim.device.link.options import ArmOptions, options_of
 from rvsim.device.link.pacing import PacedArm
 from rvsim.device.link.real_time import RealTime
 from rvsim.errors import RvsimError
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr
 
 if TYPE_CHECKING:
     from rvsim.device.virtual.arm import VirtualArm
@@ -68,7 +68,7 @@ class Serial(SerialBase):  # type: ignore[misc]
         """
         with self._changed:
             if self.is_open:
-                raise SerialException(tr("{port}: this port is open already.", port=self.port))
+                raise self._exception(tr("this port is open already."))
             self._check_settings()
             try:
                 self._connect(options_of(self.port or ""))
@@ -106,11 +106,13 @@ class Serial(SerialBase):  # type: ignore[misc]
 
     def _check_settings(self) -> None:
         if self.bytesize != 8 or self.parity != "N":
-            raise SerialException(
-                tr("{port}: the board talks with 8 bits and no parity: bytesize=8, parity='N'.", port=self.port)
-            )
+            rule = "bytesize=8, parity='N'"
+            raise self._exception(tr("the board talks with 8 bits and no parity: {rule}.", rule=rule))
         if self.baudrate < 1:
-            raise SerialException(tr("{port}: {baudrate} is no baud rate.", port=self.port, baudrate=self.baudrate))
+            raise self._exception(tr("{rate} is no baud rate.", rate=self.baudrate))
+
+    def _exception(self, sentence: str) -> SerialException:
+        return SerialException(f"{left_to_right(self.port)}: {sentence}")
 
     # --- time --------------------------------------------------------------------------------------------------------
 
@@ -120,7 +122,7 @@ class Serial(SerialBase):  # type: ignore[misc]
             raise PortNotOpenError
         self._time.tell(self.clock.now())
         if self._arm.vanished:
-            raise SerialException(tr("{port}: the port has gone, as when its plug is pulled.", port=self.port))
+            raise self._exception(tr("the port has gone, as when its plug is pulled."))
         return self._wire
 
     def _deadline(self, timeout: float | None) -> float:
@@ -185,7 +187,7 @@ class Serial(SerialBase):  # type: ignore[misc]
                 left = self._hand_over(left)
             cancelled, self._write_cancelled = self._write_cancelled, False
         if left and not cancelled and self.write_timeout != 0:
-            raise SerialTimeoutException(tr("Write timeout"))
+            raise SerialTimeoutException("Write timeout")
         return len(data) - len(left)
 
     def _hand_over(self, data: bytes) -> bytes:

@@ -59,7 +59,7 @@ def axis_scales(robot: Robot) -> FloatArray:
     if len(scales) > MOST_AXES:
         raise RobotDefinitionError(
             robot.name,
-            tr("{count} axes; the encoder bridge knows {most_axes} at most.", count=len(scales), most_axes=MOST_AXES),
+            tr("{count} axes; the encoder bridge knows {most} at most.", count=len(scales), most=MOST_AXES),
         )
     return np.array(scales)
 

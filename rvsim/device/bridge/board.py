@@ -35,14 +35,13 @@ from rvsim.device.virtual.clock import FRAME_NS, NANO, Clock
 from rvsim.device.virtual.contract import BoolArray, ChannelState, Measure
 from rvsim.device.virtual.faults import NO_FAULTS, Fault
 from rvsim.device.virtual.servo import GRIPPER_SPEED, USUAL_SPEED
-from rvsim.language import tr_later
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.servo import CHANNELS
 from rvsim.robot.servos import pulses_of, servo_limits
 
 VERSION = 1
-NAME = tr_later("rvsim virtual bridge")
+NAME = "rvsim virtual bridge"
 LEAST_PERIOD_MS = 20
 _MILLI = NANO // 1000
 _OLD = 128  # sequence numbers: a step of less than half the circle is new, any other is repeated or old

@@ -135,9 +135,7 @@ class Identity:
         _check("version", self.version, 0xFF)
         _check("joints", self.joints, MOST_AXES)
         if not (self.name.isascii() and self.name.isprintable() and len(self.name) <= LONGEST_NAME):
-            raise SettingError(
-                "name", self.name, tr("at most {longest_name} printable ASCII characters", longest_name=LONGEST_NAME)
-            )
+            raise SettingError("name", self.name, tr("at most {most} printable ASCII characters", most=LONGEST_NAME))
 
 
 @dataclass(frozen=True)
@@ -315,14 +313,14 @@ _CODES: dict[type, int] = {form.message: code for code, form in _FORMS.items()}
 
 def _check(name: str, value: int, most: int) -> None:
     if not 0 <= value <= most:
-        raise SettingError(name, value, tr("a whole number from 0 to {most}", most=most))
+        raise SettingError(name, value, tr("a whole number from {least} to {most}", least=0, most=most))
 
 
 def _check_places(places: Sequence[Place]) -> None:
     if len(places) > MOST_AXES:
-        raise SettingError("places", len(places), tr("at most {most_axes} axes", most_axes=MOST_AXES))
+        raise SettingError("places", len(places), tr("at most {most} axes", most=MOST_AXES))
     for place in places:
         if place is not None and abs(place) > LARGEST:
             raise SettingError(
-                "place", place, tr("a whole number from {largest} to {largest2}", largest=-LARGEST, largest2=LARGEST)
+                "place", place, tr("a whole number from {least} to {most}", least=-LARGEST, most=LARGEST)
             )

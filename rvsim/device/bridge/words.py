@@ -25,7 +25,8 @@ from rvsim.device.bridge.messages import (
     Wake,
     decode,
 )
-from rvsim.language import tr, tr_later
+from rvsim.device.words import in_a_row, one_after_another
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Robot
 
 PROBLEM_WORDS: dict[Problem, str] = {
@@ -42,12 +43,12 @@ PROBLEM_WORDS: dict[Problem, str] = {
 }
 # In the order of the flags of a Status.
 _STATUS_WORDS = (
-    "moving",
+    tr_later("moving"),
     tr_later("not following"),
     tr_later("at a limit"),
-    "stopped",
+    tr_later("stopped"),
     tr_later("some axis asleep"),
-    "restarted",
+    tr_later("restarted"),
 )
 
 
@@ -60,15 +61,15 @@ class _Axes:
         self._joints = len(self._sliding)
 
     def name(self, axis: int) -> str:
-        return self._names[axis] if axis < len(self._names) else tr("axis {axis}", axis=axis)
+        return tr(self._names[axis]) if axis < len(self._names) else tr("axis {number}", number=axis)
 
     def place(self, axis: int, place: Place) -> str:
         if place is None:
-            return "nothing"
+            return tr("nothing")
         if not self._names or axis > self._joints:
             return _hundredths(place)
         if axis == self._joints:
-            return tr("{hundredths} % open", hundredths=_hundredths(place))
+            return tr("{percent} % open", percent=_hundredths(place))
         return f"{_hundredths(place)} mm" if self._sliding[axis] else f"{_hundredths(place)}°"
 
 
@@ -80,80 +81,97 @@ def frame_in_words(data: bytes, robot: Robot | None = None) -> str:
     """
     axes, decoder = _Axes(robot), FrameDecoder()
     words = [_found(item, axes) for item in decoder.feed(data)]
-    return "; ".join(words + [tr("a piece of a frame")] * decoder.unfinished)
+    return one_after_another(words + [tr("a piece of a frame")] * decoder.unfinished)
 
 
 def _found(found: Found, axes: _Axes) -> str:
     if isinstance(found, BadFrame):
-        return tr("no frame: {problem}", problem=PROBLEM_WORDS[found.problem])
+        return tr("no frame: {problem}", problem=tr(PROBLEM_WORDS[found.problem]))
     message = decode(found)
     if isinstance(message, Problem):
-        return tr("{sequence}: says nothing: {problem}", sequence=found.sequence, problem=PROBLEM_WORDS[message])
-    return f"{found.sequence}: {_WORDS[type(message)](message, axes)}"
+        return tr("{number}: says nothing: {problem}", number=found.sequence, problem=tr(PROBLEM_WORDS[message]))
+    return tr("{number}: {message}", number=found.sequence, message=_WORDS[type(message)](message, axes))
 
 
 def _set_points(message: SetPoints, axes: _Axes) -> str:
     told = [axis for axis, place in enumerate(message.places) if place is not None]
     if not told:
         return tr("no axis to anywhere")
-    parts = ", ".join(f"{axes.name(axis)} to {axes.place(axis, message.places[axis])}" for axis in told)
-    return f"{parts}{', together' if len(told) > 1 else ''} in {message.duration_ms} ms"
+    moves = in_a_row(
+        tr("{axis} to {place}", axis=axes.name(axis), place=axes.place(axis, message.places[axis])) for axis in told
+    )
+    if len(told) > 1:
+        return tr("{moves}, together in {time} ms", moves=moves, time=message.duration_ms)
+    return tr("{moves} in {time} ms", moves=moves, time=message.duration_ms)
 
 
 def _wake(message: Wake, axes: _Axes) -> str:
     if message.place is None:
-        return tr("wake {name} where it is", name=axes.name(message.axis))
+        return tr("wake {axis} where it is", axis=axes.name(message.axis))
     return tr(
-        "wake {name}, to {place} in {duration_ms} ms",
-        name=axes.name(message.axis),
+        "wake {axis}, to {place} in {time} ms",
+        axis=axes.name(message.axis),
         place=axes.place(message.axis, message.place),
-        duration_ms=message.duration_ms,
+        time=message.duration_ms,
     )
 
 
 def _identity(message: Identity, _: _Axes) -> str:
-    grip = tr(" and a gripper") if message.gripper else ""
-    return tr(
-        "I am “{name}”, {joints} joints{grip}, version {version} of the protocol",
-        name=message.name,
-        joints=message.joints,
-        grip=grip,
-        version=message.version,
+    values = {"name": message.name, "version": message.version}
+    if message.gripper:
+        return trn(
+            "I am “{name}”, {n} joint and a gripper, version {version} of the protocol",
+            "I am “{name}”, {n} joints and a gripper, version {version} of the protocol",
+            message.joints,
+            **values,
+        )
+    return trn(
+        "I am “{name}”, {n} joint, version {version} of the protocol",
+        "I am “{name}”, {n} joints, version {version} of the protocol",
+        message.joints,
+        **values,
     )
 
 
 def _encoders(message: Encoders, axes: _Axes) -> str:
-    measured = ", ".join(
-        f"{axes.name(axis)} {'has no encoder' if place is None else axes.place(axis, place)}"
+    measured = in_a_row(
+        tr("{axis} has no encoder", axis=axes.name(axis)) if place is None else _at(axis, place, axes)
         for axis, place in enumerate(message.places)
     )
     return tr(
-        "measured at {timestamp_ms} ms: {measured} ({status})",
-        timestamp_ms=message.timestamp_ms,
+        "measured at {time} ms: {measured} ({status})",
+        time=message.timestamp_ms,
         measured=measured,
         status=_status(message.status),
     )
 
 
 def _axes_told(message: Axes, axes: _Axes) -> str:
-    told = ", ".join(
-        f"{axes.name(axis)} {'asleep' if place is None else axes.place(axis, place)}{_fares(message, axis)}"
-        for axis, place in enumerate(message.places)
-    )
+    told = in_a_row(_fares(message, axis, axes) for axis in range(len(message.places)))
     return tr("told: {told} ({status})", told=told, status=_status(message.status))
 
 
-def _fares(message: Axes, axis: int) -> str:
-    return tr(" (does not follow)") * message.stalled[axis] + tr(" (at a limit)") * message.limit[axis]
+def _at(axis: int, place: Place, axes: _Axes) -> str:
+    return tr("{axis} {place}", axis=axes.name(axis), place=axes.place(axis, place))
+
+
+def _fares(message: Axes, axis: int, axes: _Axes) -> str:
+    place = message.places[axis]
+    told = tr("{axis} asleep", axis=axes.name(axis)) if place is None else _at(axis, place, axes)
+    if message.stalled[axis]:
+        told = tr("{axis} (does not follow)", axis=told)
+    return tr("{axis} (at a limit)", axis=told) if message.limit[axis] else told
 
 
 def _status(status: Status) -> str:
-    return ", ".join(word for word, on in zip(_STATUS_WORDS, status, strict=True) if on) or tr("at rest")
+    return in_a_row(tr(word) for word, on in zip(_STATUS_WORDS, status, strict=True) if on) or tr("at rest")
 
 
 def _error(message: Error, axes: _Axes) -> str:
-    where = "" if message.axis is None else f"{axes.name(message.axis)}: "
-    return tr("not done: {where}{problem}", where=where, problem=PROBLEM_WORDS[message.problem])
+    problem = tr(PROBLEM_WORDS[message.problem])
+    if message.axis is None:
+        return tr("not done: {problem}", problem=problem)
+    return tr("not done: {axis}: {problem}", axis=axes.name(message.axis), problem=problem)
 
 
 _WORDS: dict[type, Callable[[Any, _Axes], str]] = {
@@ -164,9 +182,9 @@ _WORDS: dict[type, Callable[[Any, _Axes], str]] = {
     Stop: lambda *_: tr("stop, all axes"),
     Clear: lambda *_: tr("leave the latched stop"),
     Wake: _wake,
-    Limp: lambda message, axes: tr("{name} off (limp)", name=axes.name(message.axis)),
+    Limp: lambda message, axes: tr("{servo} off (limp)", servo=axes.name(message.axis)),
     Period: lambda message, _: (
-        tr("report every {period_ms} ms", period_ms=message.period_ms) if message.period_ms else tr("report no more")
+        tr("report every {time} ms", time=message.period_ms) if message.period_ms else tr("report no more")
     ),
     Identity: _identity,
     Encoders: _encoders,

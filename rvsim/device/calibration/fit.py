@@ -101,9 +101,9 @@ def remarks_on(servo: Servo, name: str, revolute: bool, worst: float = 0.0) -> t
     if revolute and not least <= per_degree <= most:
         remarks.append(
             tr(
-                "The {name} would have {per_degree:.1f} µs/°; hobby servos have {least:g} to {most:g}. "
+                "The {joint} would have {per_degree:.1f} µs/°; hobby servos have {least:g} to {most:g}. "
                 "Mark its poses again.",
-                name=name,
+                joint=tr(name),
                 per_degree=per_degree,
                 least=least,
                 most=most,
@@ -112,8 +112,8 @@ def remarks_on(servo: Servo, name: str, revolute: bool, worst: float = 0.0) -> t
     if revolute and worst > _CROOKED:
         remarks.append(
             tr(
-                "The {name}'s samples lie up to {worst:.1f}° off a line. Was it held up, or at its end?",
-                name=name,
+                "The {joint}'s samples lie up to {worst:.1f}° off a line. Was it held up, or at its end?",
+                joint=tr(name),
                 worst=math.degrees(worst),
             )
         )
@@ -133,10 +133,11 @@ def _wrong_samples(pulses: FloatArray, q: FloatArray) -> str:
     if not (np.isfinite(pulses).all() and np.isfinite(q).all()):
         return tr("Some sample is no number: nothing was measured there.")
     if pulses.min() < SHORTEST_US or pulses.max() > LONGEST_US:
-        return tr(
-            "Pulses go from {shortest_us:g} to {longest_us:g} µs.", shortest_us=SHORTEST_US, longest_us=LONGEST_US
-        )
+        return tr("Pulses go from {shortest:g} to {longest:g} µs.", shortest=SHORTEST_US, longest=LONGEST_US)
     if pulses.max() - pulses.min() < LEAST_TRAVEL_US:
-        found = tr("{value:g} and {value2:g} µs", value=pulses.min(), value2=pulses.max())
-        return tr("The pulses are nearly the same ({found}): the joint must move between its marks.", found=found)
+        return tr(
+            "The pulses are nearly the same ({least:g} and {most:g} µs): the joint must move between its marks.",
+            least=pulses.min(),
+            most=pulses.max(),
+        )
     return ""

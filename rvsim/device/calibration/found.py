@@ -9,12 +9,20 @@ from dataclasses import dataclass, replace
 from rvsim.device.calibration.fit import LEAST_TRAVEL_US, Fit, Objection, fit_from_samples
 from rvsim.device.calibration.steps import ENDS, GRIPPER_STAGES, POSES, Stage
 from rvsim.device.calibration.words import number_words
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.servo import LONGEST_US, SHORTEST_US
 
 CLOSE, CLOSE_SLIDING = math.radians(20.0), 0.02  # [rad], [m] errors in reading grow between marks so close together
 _SLACK_US = 5.0
+_SHORTER = tr_later(
+    "{end:g} µs is the wrong way: this end has shorter pulses than the pose at {pose:g} µs. "
+    "Nudge on from that pose, not back through it."
+)
+_LONGER = tr_later(
+    "{end:g} µs is the wrong way: this end has longer pulses than the pose at {pose:g} µs. "
+    "Nudge on from that pose, not back through it."
+)
 
 
 @dataclass(frozen=True)
@@ -58,10 +66,10 @@ def objection_to_pulse(pulse_us: float) -> str:
         return tr("The servo has no pulse: wake it first, then nudge it.")
     if not SHORTEST_US <= pulse_us <= LONGEST_US:
         return tr(
-            "{pulse_us:g} µs is no pulse of the controller: its go from {shortest_us:g} to {longest_us:g} µs.",
-            pulse_us=pulse_us,
-            shortest_us=SHORTEST_US,
-            longest_us=LONGEST_US,
+            "{pulse:g} µs is no pulse of the controller: its go from {shortest:g} to {longest:g} µs.",
+            pulse=pulse_us,
+            shortest=SHORTEST_US,
+            longest=LONGEST_US,
         )
     return ""
 
@@ -118,9 +126,9 @@ def _wrong_gripper(marks: Marks) -> str:
     if open_us is None or closed_us is None or abs(open_us - closed_us) >= LEAST_TRAVEL_US:
         return ""
     return tr(
-        "Open and closed have nearly the same pulse ({open_us:g} and {closed_us:g} µs): did the gripper move?",
-        open_us=open_us,
-        closed_us=closed_us,
+        "Open and closed have nearly the same pulse ({open:g} and {closed:g} µs): did the gripper move?",
+        open=open_us,
+        closed=closed_us,
     )
 
 
@@ -130,22 +138,16 @@ def _too_close(robot: Robot, marks: Marks, joint: int) -> str:
     if abs(first - second) >= least:
         return ""
     return tr(
-        "Both marks are only {number} apart: errors in reading would grow. Choose poses at least {number2} apart.",
-        number=number_words(robot, joint, abs(first - second)),
-        number2=number_words(robot, joint, least),
+        "Both marks are only {distance} apart: errors in reading would grow. Choose poses at least {least} apart.",
+        distance=number_words(robot, joint, abs(first - second)),
+        least=number_words(robot, joint, least),
     )
 
 
 def _wrong_end(poses_us: list[float], stage: Stage, end_us: float, sign: int) -> str:
     """An end lies beyond both poses, on its side."""
     shorter = (stage == "least end") == (sign > 0)
-    pose, way = (min(poses_us), "shorter") if shorter else (max(poses_us), "longer")
+    pose = min(poses_us) if shorter else max(poses_us)
     if (end_us <= pose + _SLACK_US) if shorter else (end_us >= pose - _SLACK_US):
         return ""
-    return tr(
-        "{end_us:g} µs is the wrong way: this end has {way} pulses than the pose at {pose:g} µs. "
-        "Nudge on from that pose, not back through it.",
-        end_us=end_us,
-        way=way,
-        pose=pose,
-    )
+    return tr(_SHORTER if shorter else _LONGER, end=end_us, pose=pose)

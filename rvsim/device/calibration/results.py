@@ -52,10 +52,10 @@ def joint_result(robot: Robot, joint: int, new: Servo) -> Result:
     scale, step, unit = (math.radians(1.0), "degree", "µs/°") if what.revolute else (1e-3, "millimetre", "µs/mm")
     changes = (
         Change("direction", "", old.sign, new.sign),
-        Change(tr("pulse at zero"), "µs", old.zero_us, new.zero_us),
-        Change(tr("pulse per {step}", step=step), unit, old.us_per_rad * scale, new.us_per_rad * scale),
-        Change(tr("shortest pulse"), "µs", old.min_us, new.min_us),
-        Change(tr("longest pulse"), "µs", old.max_us, new.max_us),
+        Change("pulse at zero", "µs", old.zero_us, new.zero_us),
+        Change(f"pulse per {step}", unit, old.us_per_rad * scale, new.us_per_rad * scale),
+        Change("shortest pulse", "µs", old.min_us, new.min_us),
+        Change("longest pulse", "µs", old.max_us, new.max_us),
     )
     remarks = (
         *remarks_on(new, what.name, what.revolute),
@@ -67,7 +67,10 @@ def joint_result(robot: Robot, joint: int, new: Servo) -> Result:
 
 def gripper_result(old: GripperServo, new: GripperServo) -> Result:
     """Of the gripper."""
-    changes = (Change("open", "µs", old.open_us, new.open_us), Change("closed", "µs", old.closed_us, new.closed_us))
+    changes = (
+        Change("open", "µs", old.open_us, new.open_us),
+        Change("closed", "µs", old.closed_us, new.closed_us),
+    )
     turned = (new.open_us > new.closed_us) != (old.open_us > old.closed_us)
     remarks = (tr("The gripper opens the other way round than before."),) if turned else ()
     return Result(None, "gripper", old, new, changes, remarks)
@@ -76,7 +79,7 @@ def gripper_result(old: GripperServo, new: GripperServo) -> Result:
 def _odd_directions(old: Servo, new: Servo, joint: Joint) -> tuple[str, ...]:
     if old.sign == new.sign:
         return ()
-    return (tr("The {name} turns the other way round than before.", name=joint.name),)
+    return (tr("The {joint} turns the other way round than before.", joint=tr(joint.name)),)
 
 
 def _odd_range(robot: Robot, joint: int, new: Servo) -> tuple[str, ...]:
@@ -86,13 +89,16 @@ def _odd_range(robot: Robot, joint: int, new: Servo) -> tuple[str, ...]:
     if min(largest, what.upper) <= max(least, what.lower):
         return (
             tr(
-                "The servo would turn the {name} outside of the arm's limits only. Mark its poses again.",
-                name=what.name,
+                "The servo would turn the {joint} outside of the arm's limits only. Mark its poses again.",
+                joint=tr(what.name),
             ),
         )
     before, after = usual_range(robot, joint), usual_range(with_servo(robot, joint, new), joint)
     if after[1] - after[0] < 0.5 * (before[1] - before[0]):
         return (
-            tr("The {name} would reach less than half of what it could before. Are both ends marked?", name=what.name),
+            tr(
+                "The {joint} would reach less than half of what it could before. Are both ends marked?",
+                joint=tr(what.name),
+            ),
         )
     return ()

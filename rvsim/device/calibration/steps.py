@@ -7,6 +7,7 @@ from typing import Literal
 
 from rvsim.device.calibration.marks import MarkPlan
 from rvsim.device.calibration.words import number_words, pose_words
+from rvsim.device.words import axis_name, in_a_row, with_capital
 from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -16,12 +17,12 @@ GRIPPER_STAGES: tuple[Stage, ...] = ("open", "closed")
 POSES: tuple[Stage, ...] = ("first pose", "second pose")
 ENDS: tuple[Stage, ...] = ("least end", "largest end")
 _TITLES: dict[Stage, str] = {
-    "first pose": tr_later("first pose"),
-    "second pose": tr_later("second pose"),
-    "least end": tr_later("how far one way"),
-    "largest end": tr_later("how far the other way"),
-    "open": "open",
-    "closed": "closed",
+    "first pose": tr_later("{axis}: first pose"),
+    "second pose": tr_later("{axis}: second pose"),
+    "least end": tr_later("{axis}: how far one way"),
+    "largest end": tr_later("{axis}: how far the other way"),
+    "open": tr_later("{axis}: open"),
+    "closed": tr_later("{axis}: closed"),
 }
 
 
@@ -57,28 +58,25 @@ class Step:
 
 def title(name: str, stage: Stage) -> str:
     """Short, for above the instruction."""
-    return f"{name[:1].upper()}{name[1:]}: {_TITLES[stage]}"
+    return tr(_TITLES[stage], axis=with_capital(name))
 
 
 def instruction(robot: Robot, joint: int | None, stage: Stage, plan: MarkPlan) -> str:
     """What to do, in words."""
     if joint is None:
-        what = tr("are as far apart as they go") if stage == "open" else tr("just touch, without humming")
-        return tr("Nudge the gripper until its fingers {what}, then press Mark.", what=what)
-    name, pose = robot.joints[joint].name, plan.postures[stage in ("second pose", "largest end")]
+        if stage == "open":
+            return tr("Nudge the gripper until its fingers are as far apart as they go, then press Mark.")
+        return tr("Nudge the gripper until its fingers just touch, without humming, then press Mark.")
+    name, pose = axis_name(robot, joint), plan.postures[stage in ("second pose", "largest end")]
     words = pose_words(robot, joint, pose)
     if stage in POSES:
-        return tr(
-            "Nudge the {name} until {words}, then press Mark.{others}",
-            name=name,
-            words=words,
-            others=_others(robot, joint, plan),
-        )
+        nudge = tr("Nudge the {joint} until {pose}, then press Mark.", joint=name, pose=words)
+        return f"{nudge} {_others(robot, joint, plan)}"
     return tr(
-        "Nudge the {name} on, past where {words}, as far as it may go without humming or touching anything, "
+        "Nudge the {joint} on, past where {pose}, as far as it may go without humming or touching anything, "
         "then press Mark.",
-        name=name,
-        words=words,
+        joint=name,
+        pose=words,
     )
 
 
@@ -86,17 +84,23 @@ def skip(joint: int | None, stage: Stage) -> str:
     """What skipping does."""
     if stage in ENDS:
         return tr("The joint may go as far as it could before, measured in degrees.")
-    return tr("The {value} keeps its present calibration.", value="gripper" if joint is None else "joint")
+    if joint is None:
+        return tr("The gripper keeps its present calibration.")
+    return tr("The joint keeps its present calibration.")
 
 
 def _others(robot: Robot, joint: int, plan: MarkPlan) -> str:
     """How the rest of the arm should stand, where it is not at home."""
     posture = plan.postures[0]
     away = [
-        tr("{name} about {number}", name=other.name, number=number_words(robot, index, float(posture[index])))
-        for index, other in enumerate(robot.joints)
+        tr(
+            "{joint} about {number}",
+            joint=axis_name(robot, index),
+            number=number_words(robot, index, float(posture[index])),
+        )
+        for index in range(robot.dof)
         if index != joint and posture[index] != robot.home[index]
     ]
     if not away:
-        return tr(" The other joints stand about as at home.")
-    return tr(" The other joints stand about as the scene shows: {away}.", away=", ".join(away))
+        return tr("The other joints stand about as at home.")
+    return tr("The other joints stand about as the scene shows: {joints}.", joints=in_a_row(away))

@@ -8,8 +8,6 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from rvsim.language import tr, tr_later
-
 if TYPE_CHECKING:
     from rvsim.device.driver.actions import Axis, Playable, Refusal
     from rvsim.device.driver.core import DriverCore
@@ -19,12 +17,12 @@ if TYPE_CHECKING:
     from rvsim.device.driver.state import MEASURED_WORDS, DriverState, MeasuredKind, Phase
 
 _MODULES = {
-    "actions": (tr_later("Axis"), tr_later("Playable"), tr_later("Refusal")),
+    "actions": ("Axis", "Playable", "Refusal"),
     "core": ("DriverCore",),
     "io_thread": ("ArmDriver",),
     "languages": ("LanguageName",),
     "ports": ("VIRTUAL", "PortChoice", "available_ports"),
-    "state": ("MEASURED_WORDS", "DriverState", "MeasuredKind", tr_later("Phase")),
+    "state": ("MEASURED_WORDS", "DriverState", "MeasuredKind", "Phase"),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}
 
@@ -47,5 +45,5 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     if name not in _HOMES:
-        raise AttributeError(tr("module {name!r} has no attribute {name2!r}", name=__name__, name2=name))
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)

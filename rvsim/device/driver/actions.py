@@ -13,6 +13,7 @@ from rvsim.robot import GripperServo, Servo
 from rvsim.robot.arrays import FloatArray
 
 Axis: TypeAlias = int | Literal["gripper"]
+PRESSED = tr_later("The emergency stop was pressed.")
 
 
 class Playable(Protocol):
@@ -121,7 +122,7 @@ class Limp:
 class StopAll:
     """The emergency stop: latches, and only `Reset` leads out."""
 
-    reason: str = tr_later("The emergency stop was pressed.")
+    reason: str = PRESSED
 
 
 @dataclass(frozen=True)

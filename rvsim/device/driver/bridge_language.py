@@ -27,7 +27,8 @@ from rvsim.device.bridge.messages import (
     Wake,
 )
 from rvsim.device.driver.language import Event, Latched, Measured, Named, Noticed, Reported, Unfit
-from rvsim.language import tr, tr_later
+from rvsim.device.words import axis_names, in_a_row
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.servos import within_servos
@@ -181,18 +182,15 @@ class BridgeLanguage:
     def _identified(self, message: Identity) -> Iterator[Event]:
         yield Named(message.name or tr("encoder bridge"))
         if (message.joints, message.gripper) != (self._robot.dof, self._gripper):
-            found = tr(
-                "{joints} joints{value}", joints=message.joints, value=tr(" and a gripper") if message.gripper else ""
-            )
-            yield Unfit(tr("The bridge drives another arm than this one: {found}.", found=found))
+            yield Unfit(_another_arm(message))
 
     def _told(self, message: Axes) -> Iterator[Event]:
         if len(message.places) == self.axes:
             yield Reported(_numbers(message.places))
-        names = (*self._robot.joint_names, "gripper")
+        names = axis_names(self._robot)
         stalled = [name for name, stuck in zip(names, message.stalled, strict=False) if stuck]
         yield Noticed(
-            tr("{stalled}: does not follow. Is something in the way?", stalled=", ".join(stalled)) if stalled else ""
+            tr("{joints}: does not follow. Is something in the way?", joints=in_a_row(stalled)) if stalled else ""
         )
 
     def _encoded(self, message: Encoders) -> Iterator[Event]:
@@ -201,7 +199,7 @@ class BridgeLanguage:
 
     def _failed(self, message: Error) -> Iterator[Event]:
         if message.problem is Problem.STOPPED:
-            yield Latched(_LATCHED)
+            yield Latched(tr(_LATCHED))
 
     def _fares(self, status: object) -> Iterator[Event]:
         """What a status says of itself; that of before a reset still says "stopped"."""
@@ -211,7 +209,21 @@ class BridgeLanguage:
             yield Reported(np.full(self.axes, np.nan))
         self._clearing = self._clearing and status.stopped
         if status.stopped and not self._clearing:
-            yield Latched(_LATCHED)
+            yield Latched(tr(_LATCHED))
+
+
+def _another_arm(message: Identity) -> str:
+    if message.gripper:
+        return trn(
+            "The bridge drives another arm than this one: {n} joint and a gripper.",
+            "The bridge drives another arm than this one: {n} joints and a gripper.",
+            message.joints,
+        )
+    return trn(
+        "The bridge drives another arm than this one: {n} joint.",
+        "The bridge drives another arm than this one: {n} joints.",
+        message.joints,
+    )
 
 
 def _numbers(places: Sequence[int | None]) -> FloatArray:

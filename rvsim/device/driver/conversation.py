@@ -17,6 +17,7 @@ from rvsim.device.driver.plan import shown
 from rvsim.device.driver.state import DriverState, MeasuredKind, Phase
 from rvsim.device.driver.watch import FORGOTTEN, Watch, disobeyed
 from rvsim.device.driver.wire import Log, Wire, no_log
+from rvsim.device.words import axis_name
 from rvsim.language import tr, tr_later
 from rvsim.playback.recording import Recorder, Recording
 from rvsim.robot import Robot
@@ -174,7 +175,7 @@ class Conversation:
 
     def _words(self) -> str:
         if self._mode == "open" and self._wire.questions.overdue(self._wire.now):
-            return _LATE
+            return tr(_LATE)
         return self._notice if self._mode == "open" and self._notice else self._reason
 
     # --- what an owner of a wire calls -------------------------------------------------------------------------------
@@ -326,9 +327,9 @@ class Conversation:
         if not self._wire.questions.silent:
             return
         if self._mode == "connecting":
-            self.lose(_GARBAGE if self._wire.received else _NOBODY)
+            self.lose(tr(_GARBAGE if self._wire.received else _NOBODY))
         elif self._mode == "open":
-            self._latch(_SILENT)
+            self._latch(tr(_SILENT))
 
     # --- hearing -----------------------------------------------------------------------------------------------------
 
@@ -373,17 +374,19 @@ class Conversation:
     def _check_report(self, raw: FloatArray) -> None:
         asked, now = self._wire.questions.asked_at, self._wire.now
         if self._watch.forgotten(self._belief, raw, asked):
-            self._latch(FORGOTTEN, asleep=True)
+            self._latch(tr(FORGOTTEN), asleep=True)
             return
         axis = self._watch.astray(self._belief, raw, asked, now, self._language.tolerance)
         if axis is not None:
-            names = (*self._robot.joint_names, "gripper")
-            self._latch(disobeyed(names[axis], *(self._shown(axis, of) for of in (self._belief.at(now), raw))))
+            name = axis_name(self._robot, axis)
+            self._latch(disobeyed(name, *(self._shown(axis, of) for of in (self._belief.at(now), raw))))
 
     def _shown(self, axis: int, raw: FloatArray) -> str:
         value = float(self._language.values(raw)[axis])
         return (
-            shown(self._robot, axis, value) if axis < self._robot.dof else tr("{value:.0f} % open", value=100.0 * value)
+            shown(self._robot, axis, value)
+            if axis < self._robot.dof
+            else tr("{percent:.0f} % open", percent=100.0 * value)
         )
 
     def _check_rest(self, raw: FloatArray) -> None:

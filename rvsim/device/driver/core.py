@@ -30,8 +30,9 @@ from rvsim.device.driver.motions import Following, Running
 from rvsim.device.driver.orders import LONGEST, Order, Paces
 from rvsim.device.driver.plan import Plan, approach_of, far_start, outside, plan_of
 from rvsim.device.driver.watch import Watch
+from rvsim.device.words import axis_name, in_a_row
 from rvsim.errors import RobotDefinitionError
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot.arrays import FloatArray
 
 _NOT_OPEN: dict[Mode, str] = {
@@ -40,8 +41,8 @@ _NOT_OPEN: dict[Mode, str] = {
     "stopped": tr_later("The stop has latched. Reset it first."),
     "lost": tr_later("The port is lost. Connect again."),
 }
-_BUSY_RUNNING = Refusal(tr_later("A trajectory is under way. Hold it first."))
-_BUSY_MOVING = Refusal(tr_later("The arm is still moving. Wait until it has arrived, or hold it."))
+_BUSY_RUNNING = tr_later("A trajectory is under way. Hold it first.")
+_BUSY_MOVING = tr_later("The arm is still moving. Wait until it has arrived, or hold it.")
 
 
 class DriverCore(Conversation):
@@ -63,20 +64,24 @@ class DriverCore(Conversation):
     # --- who may ---------------------------------------------------------------------------------------------------
 
     def _closed(self) -> Refusal | None:
-        return Refusal(_NOT_OPEN[self._mode]) if self._mode != "open" else None
+        return Refusal(tr(_NOT_OPEN[self._mode])) if self._mode != "open" else None
 
     def _asleep(self, axes: Sequence[int]) -> Refusal | None:
         """Why these axes cannot be moved."""
         names = [self._name(axis) for axis in axes if not self._belief.awake[axis]]
         if self._mode != "open" or not names:
             return self._closed()
-        verb = "is" if len(names) == 1 else "are"
         return Refusal(
-            tr("{names} {verb} asleep. Wake them one after the other first.", names=", ".join(names), verb=verb)
+            trn(
+                "{joints} is asleep. Wake them one after the other first.",
+                "{joints} are asleep. Wake them one after the other first.",
+                len(names),
+                joints=in_a_row(names),
+            )
         )
 
     def _name(self, axis: int) -> str:
-        return self._robot.joint_names[axis] if axis < self._robot.dof else "gripper"
+        return axis_name(self._robot, axis)
 
     def _axis(self, axis: Axis) -> int | Refusal:
         """The number of an axis."""
@@ -87,7 +92,7 @@ class DriverCore(Conversation):
         return (
             int(axis)
             if known
-            else Refusal(tr("There is no joint {axis!r}; they count from 0 to {n}.", axis=axis, n=n - 1))
+            else Refusal(tr("There is no joint {number!r}; they count from 0 to {last}.", number=axis, last=n - 1))
         )
 
     def _pose(self, q: ArrayLike) -> FloatArray | Refusal:
@@ -98,7 +103,9 @@ class DriverCore(Conversation):
         except (TypeError, ValueError):
             return Refusal(tr("The pose is no list of numbers."))
         if values.shape != (n,):
-            return Refusal(tr("The pose has the shape {shape}, the arm has {n} joints.", shape=values.shape, n=n))
+            return Refusal(
+                tr("The pose has the shape {shape}, the arm has {count} joints.", shape=values.shape, count=n)
+            )
         return values if np.isfinite(values).all() else Refusal(tr("The pose has a number that is none, or infinite."))
 
     def _only(self, axis: int, value: float) -> FloatArray:
@@ -134,9 +141,9 @@ class DriverCore(Conversation):
         if (refusal := self._closed()) is not None:
             return refusal
         if self._moving or self._motion is not None:
-            return _BUSY_MOVING
+            return Refusal(tr(_BUSY_MOVING))
         if self._belief.awake[axis]:
-            return Refusal(tr("{name} is awake already.", name=self._name(axis)))
+            return Refusal(tr("{joint} is awake already.", joint=self._name(axis)))
         if (refusal := self._beyond(axis, action.value)) is not None:
             return refusal
         self._orders[f"wake {axis}"] = Order(self._language.raw(self._only(axis, action.value)), wake=True)
@@ -149,13 +156,13 @@ class DriverCore(Conversation):
             return (
                 None
                 if good
-                else Refusal(tr("The gripper goes from 0 (closed) to 1 (open), not to {value}.", value=value))
+                else Refusal(tr("The gripper goes from 0 (closed) to 1 (open), not to {opening}.", opening=value))
             )
         pose = np.clip(self._robot.home, *self.limits.T)
         try:
             pose[axis] = value
         except (TypeError, ValueError):
-            return Refusal(tr("{value!r} is no number.", value=value))
+            return Refusal(tr("{typed!r} is no number.", typed=value))
         return outside(self._robot, self.limits, pose[None])
 
     def _move_to(self, action: actions.MoveTo) -> Refusal | None:
@@ -165,7 +172,7 @@ class DriverCore(Conversation):
         refusal = self._asleep(range(self._robot.dof)) or _bad_time(action.seconds)
         refusal = refusal or outside(self._robot, self.limits, q[None])
         if refusal is None and isinstance(self._motion, Running):
-            refusal = _BUSY_RUNNING
+            refusal = Refusal(tr(_BUSY_RUNNING))
         if refusal is None:
             self._motion, self._clamped = None, ()
             self._orders["joints"] = Order(self._language.raw(self._axes(q)), action.seconds)
@@ -177,7 +184,7 @@ class DriverCore(Conversation):
             return q
         refusal = self._asleep(range(self._robot.dof))
         if refusal is None and isinstance(self._motion, Running):
-            refusal = _BUSY_RUNNING
+            refusal = Refusal(tr(_BUSY_RUNNING))
         if refusal is not None:
             return refusal
         self._orders.pop("joints", None)
@@ -189,7 +196,7 @@ class DriverCore(Conversation):
     def _run(self, action: actions.Run) -> Refusal | None:
         refusal = self._asleep(range(self._robot.dof))
         if refusal is None and (self._moving or self._motion is not None):
-            refusal = _BUSY_RUNNING if isinstance(self._motion, Running) else _BUSY_MOVING
+            refusal = Refusal(tr(_BUSY_RUNNING if isinstance(self._motion, Running) else _BUSY_MOVING))
         plan = refusal or self.plan(action.trajectory)
         if isinstance(plan, Refusal):
             return plan
@@ -233,7 +240,7 @@ class DriverCore(Conversation):
         axis, raw = found
         refusal = self._asleep([axis]) or _bad_time(action.seconds)
         if refusal is None and self._motion is not None:
-            refusal = _BUSY_RUNNING
+            refusal = Refusal(tr(_BUSY_RUNNING))
         if refusal is None:
             self._orders[f"jog {axis}"] = Order(self._only(axis, raw), action.seconds)
         return refusal
@@ -252,7 +259,7 @@ class DriverCore(Conversation):
     def _stop(self, action: actions.StopAll) -> Refusal | None:
         if not self.wants_port:
             return self._closed()
-        self._latch(action.reason)
+        self._latch(tr(action.reason))
         return None
 
     def _reset(self, _: actions.Reset) -> Refusal | None:
@@ -268,9 +275,11 @@ class DriverCore(Conversation):
 
     def _use_servos(self, action: actions.UseServos) -> Refusal | None:
         if self._moving or self._motion is not None:
-            return _BUSY_MOVING
+            return Refusal(tr(_BUSY_MOVING))
         if len(action.servos) != self._robot.dof:
-            return Refusal(tr("{count} servos for {dof} joints.", count=len(action.servos), dof=self._robot.dof))
+            return Refusal(
+                tr("{servos} servos for {joints} joints.", servos=len(action.servos), joints=self._robot.dof)
+            )
         try:
             robot = replace(self._robot, servos=tuple(action.servos), gripper_servo=action.gripper_servo)
             same = self._language.use(robot)

@@ -24,7 +24,7 @@ from rvsim.device.driver.languages import LanguageName
 from rvsim.device.driver.outbox import BITS
 from rvsim.device.driver.state import DriverState
 from rvsim.device.wire_log import WireLog
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr
 from rvsim.playback.recording import Recording
 from rvsim.robot import GripperServo, Robot, Servo
 from rvsim.robot.arrays import FloatArray
@@ -173,7 +173,7 @@ class ArmDriver:
         """Switch a joint (from 0) or "gripper" off."""
         return self._do(actions.Limp(axis))
 
-    def stop(self, reason: str = tr_later("The emergency stop was pressed.")) -> Refusal | None:
+    def stop(self, reason: str = actions.PRESSED) -> Refusal | None:
         """The emergency stop. Latches."""
         return self._do(actions.StopAll(reason))
 
@@ -221,7 +221,7 @@ class ArmDriver:
                 self._turn()
             except (serial.SerialException, OSError) as problem:
                 self._lose(
-                    tr("The port {url} is lost: {said_once}", url=self.url, said_once=_said_once(problem, self.url))
+                    tr("The port {port} is lost: {problem}", port=self.url, problem=_said_once(problem, self.url))
                 )
             except Exception as problem:  # whatever it is: the arm must not be left without a driver
                 _logger.exception("the driver's thread")
@@ -250,9 +250,9 @@ class ArmDriver:
         except (serial.SerialException, OSError, ValueError, ImportError) as problem:
             self._lose(
                 tr(
-                    "The port {url} cannot be opened: {said_once}",
-                    url=self.url,
-                    said_once=_said_once(problem, self.url),
+                    "The port {port} cannot be opened: {problem}",
+                    port=self.url,
+                    problem=_said_once(problem, self.url),
                 )
             )
             return
@@ -319,6 +319,6 @@ def _said_once(problem: Exception, url: str) -> str:
     if isinstance(problem, OSError) and problem.strerror:
         text = problem.strerror
     text = re.sub(rf"^could not open port '?{re.escape(url)}'?: ", "", text, flags=re.IGNORECASE)
-    text = text.removeprefix(f"{url}: ")
+    text = text.removeprefix(f"{url}: ").removeprefix(f"{left_to_right(url)}: ")
     text = re.sub(r"^\[Errno \d+\] ", "", text).removesuffix(f": '{url}'")
     return text if text.endswith(".") else f"{text}."

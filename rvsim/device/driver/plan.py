@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.device.driver.actions import Playable, Refusal
+from rvsim.device.words import axis_name
 from rvsim.language import tr
 from rvsim.motion import joint_move
 from rvsim.robot import Robot
@@ -68,7 +69,7 @@ def plan_of(trajectory: Playable, robot: Robot, limits: FloatArray) -> Plan | Re
     poses = _sampled(trajectory, times)
     if poses.shape != (len(times), robot.dof):
         joints = poses.shape[-1] if poses.ndim else 0
-        return Refusal(tr("The trajectory has {joints} joints, the arm has {dof}.", joints=joints, dof=robot.dof))
+        return Refusal(tr("The trajectory has {found} joints, the arm has {wanted}.", found=joints, wanted=robot.dof))
     refusal = outside(robot, limits, poses, times) or _too_quick(robot, poses, times)
     return refusal or Plan(times, poses)
 
@@ -96,14 +97,13 @@ def _too_quick(robot: Robot, poses: FloatArray, times: FloatArray) -> Refusal | 
         return None
     index, joint = beyond[0]
     found, can = (shown(robot, joint, speed) for speed in (speeds[index, joint], most[joint]))
-    name = robot.joint_names[joint]
     return Refusal(
         tr(
-            "{name} would move at {found}/s{when}; it can do {can}/s. Give it more time.",
-            name=name,
-            found=found,
-            when=_when(times, index),
-            can=can,
+            "{joint} would move at {speed}/s after {time:.2f} s; it can do {possible}/s. Give it more time.",
+            joint=axis_name(robot, joint),
+            speed=found,
+            time=times[index],
+            possible=can,
         )
     )
 
@@ -113,11 +113,13 @@ def outside(robot: Robot, limits: FloatArray, poses: FloatArray, times: FloatArr
     wrong = np.argwhere(~np.isfinite(poses))
     if len(wrong):
         index, joint = wrong[0]
+        if times is None:
+            return Refusal(tr("{joint} is no number, so nothing is sent.", joint=axis_name(robot, joint)))
         return Refusal(
             tr(
-                "{joint_names}{when} is no number, so nothing is sent.",
-                joint_names=robot.joint_names[joint],
-                when=_when(times, index),
+                "{joint} after {time:.2f} s is no number, so nothing is sent.",
+                joint=axis_name(robot, joint),
+                time=times[index],
             )
         )
     excess = np.maximum(limits[:, 0] - poses, poses - limits[:, 1])
@@ -127,15 +129,16 @@ def outside(robot: Robot, limits: FloatArray, poses: FloatArray, times: FloatArr
     index, joint = beyond[0]
     lower, upper = (shown(robot, joint, end) for end in limits[joint])
     found = shown(robot, joint, poses[index, joint], instead_of=limits[joint])
-    sentence = tr(
-        "{joint_names} would be at {found}{when}; arm and servo together allow {lower} to {upper}.",
-        joint_names=robot.joint_names[joint],
-        found=found,
-        when=_when(times, index),
-        lower=lower,
-        upper=upper,
+    values = {"joint": axis_name(robot, joint), "angle": found, "lower": lower, "upper": upper}
+    if times is None:
+        return Refusal(tr("{joint} would be at {angle}; arm and servo together allow {lower} to {upper}.", **values))
+    return Refusal(
+        tr(
+            "{joint} would be at {angle} after {time:.2f} s; arm and servo together allow {lower} to {upper}.",
+            **values,
+            time=times[index],
+        )
     )
-    return Refusal(sentence)
 
 
 def far_start(robot: Robot, here: FloatArray, start: FloatArray) -> Refusal | None:
@@ -144,11 +147,10 @@ def far_start(robot: Robot, here: FloatArray, start: FloatArray) -> Refusal | No
     if abs(start[joint] - here[joint]) <= _NEAR:
         return None
     wanted, found = (shown(robot, joint, float(pose[joint])) for pose in (start, here))
-    name = robot.joint_names[joint]
     return Refusal(
         tr(
-            "The trajectory begins with {name} at {wanted}, but the arm is at {found}. Go to its start first.",
-            name=name,
+            "The trajectory begins with {joint} at {wanted}, but the arm is at {found}. Go to its start first.",
+            joint=axis_name(robot, joint),
             wanted=wanted,
             found=found,
         )
@@ -164,7 +166,3 @@ def shown(robot: Robot, joint: int, value: float, instead_of: Sequence[float] | 
     while digits < 6 and any(f"{number:.{digits}f}" == f"{other:.{digits}f}" for other in others):
         digits += 1
     return f"{number:.{digits}f}".replace("-", "−") + ("°" if revolute else " mm")
-
-
-def _when(times: FloatArray | None, index: int) -> str:
-    return "" if times is None else tr(" after {times:.2f} s", times=times[index])

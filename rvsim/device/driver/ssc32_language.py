@@ -13,6 +13,7 @@ from rvsim.device.ssc32.host_side import encode
 from rvsim.device.ssc32.lines import CR
 from rvsim.device.ssc32.replies import ReplyDecoder
 from rvsim.device.virtual.inputs import ANALOG, potentiometer_pulse
+from rvsim.device.words import in_a_row
 from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -112,7 +113,7 @@ class Ssc32Language:
     def jogged(self, channel: int, pulse_us: float) -> tuple[int, float] | str:
         """The axis, and the pulse held within what the controller can."""
         if channel not in self._channels:
-            known = ", ".join(map(str, self._channels))
+            known = in_a_row(map(str, self._channels))
             return tr(
                 "No joint hangs on channel {channel}; the arm's channels are {known}.", channel=channel, known=known
             )

@@ -50,9 +50,9 @@ class Watch:
 def disobeyed(name: str, should: str, reported: str) -> str:
     """What to say then."""
     return tr(
-        "The controller does not do what it is told: {name} should be at {should}, it reports {reported}. "
+        "The controller does not do what it is told: {joint} should be at {should}, it reports {reported}. "
         "Another program may use it, or lines get lost.",
-        name=name,
+        joint=name,
         should=should,
         reported=reported,
     )

@@ -43,7 +43,7 @@ def take_board(url: str, options: ArmOptions, now: float) -> tuple[VirtualArm, f
             raise DeviceError(
                 url,
                 tr("the board “{board}” is another arm", board=options.board),
-                tr("Give this one another board=NAME."),
+                tr("Give this one another {option}.", option="board=NAME"),
             )
         elif kept.open:
             raise DeviceError(

@@ -49,7 +49,7 @@ def options_of(url: str) -> ArmOptions:
         raise DeviceError(
             url,
             tr("this is no address of a virtual arm"),
-            tr("Write it like {scheme}://?robot=al5b&seed=3.", scheme=SCHEME),
+            tr("Write it like {example}.", example=f"{SCHEME}://?robot=al5b&seed=3"),
         )
     found = dict(parse_qsl(parts.query, keep_blank_values=True))
     return ArmOptions(**{name: _value(url, name, text) for name, text in found.items()})
@@ -74,9 +74,7 @@ def _value(url: str, name: str, text: str) -> Any:
     rule, read = _READERS[name]
     value = read(text)
     if value is None:
-        raise DeviceError(
-            url, tr("the option {name} is “{text}”", name=name, text=text), tr("It must be {rule}.", rule=rule)
-        )
+        raise DeviceError(url, tr("the option {name} is “{text}”", name=name, text=text), tr(rule))
     return value
 
 
@@ -101,10 +99,10 @@ def _switch(text: str) -> bool | None:
 
 
 _READERS: Mapping[str, tuple[str, Callable[[str], Any]]] = {
-    "robot": (tr_later("the name of an arm or a robot file"), _name),
-    "seed": (tr_later("a whole number, 0 or more"), _whole),
-    "language": (" or ".join(get_args(Language)), _language),
-    "board": ("a name", _name),
-    "potentiometers": ("0 or 1", _switch),
-    "board_baud": (tr_later("a rate such as 9600"), _rate),
+    "robot": (tr_later("It must be the name of an arm or a robot file."), _name),
+    "seed": (tr_later("It must be a whole number, 0 or more."), _whole),
+    "language": (tr_later("It must be ssc32 or bridge."), _language),
+    "board": (tr_later("It must be a name."), _name),
+    "potentiometers": (tr_later("It must be 0 or 1."), _switch),
+    "board_baud": (tr_later("It must be a rate such as 9600."), _rate),
 }

@@ -66,7 +66,7 @@ class PtyWire:
         except OSError as problem:
             self.close()
             raise DeviceError(
-                self.address, tr("the link cannot be made ({strerror})", strerror=problem.strerror), _ELSEWHERE
+                self.address, tr("the link cannot be made ({problem})", problem=problem.strerror), tr(_ELSEWHERE)
             ) from problem
 
     def close(self) -> None:
@@ -131,11 +131,13 @@ class PtyWire:
         if self.link.is_symlink():
             target = os.readlink(self.link)
             if self.link.exists() and not target.startswith(_TERMINALS):
-                raise DeviceError(self.address, tr("a link to {target} is there already", target=target), _ELSEWHERE)
+                raise DeviceError(
+                    self.address, tr("a link to {target} is there already", target=target), tr(_ELSEWHERE)
+                )
         elif self.link.exists():
-            raise DeviceError(self.address, tr("something else is there already"), _ELSEWHERE)
+            raise DeviceError(self.address, tr("something else is there already"), tr(_ELSEWHERE))
         elif not self.link.parent.is_dir():
-            raise DeviceError(self.address, tr("there is no folder {parent}", parent=self.link.parent), _ELSEWHERE)
+            raise DeviceError(self.address, tr("there is no folder {folder}", folder=self.link.parent), tr(_ELSEWHERE))
 
     def _point(self, terminal: str) -> None:
         new = self.link.with_name(f".{self.link.name}.{os.getpid()}")

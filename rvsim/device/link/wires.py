@@ -67,7 +67,7 @@ class TcpWire:
     @property
     def address(self) -> str:
         """`socket://127.0.0.1:54321`."""
-        return tr("socket://127.0.0.1:{port}", port=self._port)
+        return f"socket://127.0.0.1:{self._port}"
 
     def open(self) -> None:
         """Listen.

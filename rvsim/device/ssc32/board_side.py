@@ -34,7 +34,7 @@ from rvsim.device.ssc32.commands import (
     WriteRegister,
 )
 from rvsim.device.ssc32.lines import CR, LONGEST_LINE, next_line
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 
 _STEP = 4096  # bytes taken at once: cutting lines off the front of a longer buffer would cost its length each time
 _HIGH = bytes(range(0x80, 0x100))
@@ -58,7 +58,7 @@ def parse_line(line: bytes) -> Command | None:
 def read_line(line: bytes) -> Command | Dropped | None:
     """As `parse_line`, but with the reason why a line is dropped; None where it is empty."""
     if len(line) > LONGEST_LINE:
-        return Dropped(tr("the line is longer than {longest_line} bytes", longest_line=LONGEST_LINE))
+        return Dropped(tr("the line is longer than {longest} bytes", longest=LONGEST_LINE))
     line = line.translate(None, _HIGH)
     if text := _TEXT.fullmatch(line):  # the only line whose blanks and small letters count
         return AppendStartup(text[1].translate(None, _CONTROL).decode("ascii")[: ranges.LONGEST_STARTUP])
@@ -77,17 +77,28 @@ class _OutsideError(Exception):
     """A number is outside its range; never leaves this module."""
 
 
-def _number(digits: str, what: str, ends: tuple[int, int]) -> int:
+def _number(digits: str, reason: str, ends: tuple[int, int]) -> int:
+    """A number in a range; else the line is dropped for a reason out of those below."""
     value = int(digits)
     if not ranges.within(value, ends):
-        raise _OutsideError(
-            tr("the {what} {value} is not in {ends} to {ends2}", what=what, value=value, ends=ends[0], ends2=ends[1])
-        )
+        raise _OutsideError(tr(reason, number=value, least=ends[0], most=ends[1]))
     return value
 
 
+_NO_CHANNEL = tr_later("the channel {number} is not in {least} to {most}")
+_NO_TIME = tr_later("the time [ms] {number} is not in {least} to {most}")
+_NO_PULSE = tr_later("the pulse [µs] {number} is not in {least} to {most}")
+_NO_SPEED = tr_later("the speed [µs/s] {number} is not in {least} to {most}")
+_NO_OFFSET = tr_later("the offset [µs] {number} is not in {least} to {most}")
+_NO_BANK = tr_later("the bank {number} is not in {least} to {most}")
+_NO_BYTE = tr_later("the number of eight pins {number} is not in {least} to {most}")
+_NO_REGISTER = tr_later("the register {number} is not in {least} to {most}")
+_NO_REGISTER_VALUE = tr_later("the value of the register {number} is not in {least} to {most}")
+_NO_COUNT = tr_later("the number of characters {number} is not in {least} to {most}")
+
+
 def _channel(digits: str) -> int:
-    return _number(digits, "channel", ranges.CHANNEL_RANGE)
+    return _number(digits, _NO_CHANNEL, ranges.CHANNEL_RANGE)
 
 
 _SERVO = re.compile(r"#(\d+)P(\d+)(\.\d*)?((?:[ST]\d+(?:\.\d*)?)*)")
@@ -102,23 +113,23 @@ def _move(match: re.Match[str]) -> Move:
         # The board ignores a fraction, and then the S behind it too.
         speed = _speed(limits["S"]) if "S" in limits and not fraction else None
         servos.append(ServoMove(_channel(channel), _pulse(pulse), speed))
-        time_ms = _number(limits["T"], "time [ms]", ranges.TIME_RANGE) if "T" in limits else time_ms
+        time_ms = _number(limits["T"], _NO_TIME, ranges.TIME_RANGE) if "T" in limits else time_ms
     return Move(tuple(servos), time_ms)
 
 
 def _pulse(digits: str) -> int:
-    value = _number(digits, "pulse [µs]", (0, ranges.LARGEST_PULSE_NUMBER))
+    value = _number(digits, _NO_PULSE, (0, ranges.LARGEST_PULSE_NUMBER))
     return value and min(max(value, ranges.PULSE_RANGE[0]), ranges.PULSE_RANGE[1])
 
 
 def _speed(digits: str) -> int | None:
     """[µs/s]; 0 limits nothing."""
-    return _number(digits, "speed [µs/s]", (0, ranges.SPEED_RANGE[1])) or None
+    return _number(digits, _NO_SPEED, (0, ranges.SPEED_RANGE[1])) or None
 
 
 def _offsets(match: re.Match[str]) -> SetOffsets:
     pairs = re.findall(r"#(\d+)PO([+-]?\d+)", match[0])
-    return SetOffsets(tuple((_channel(c), _number(v, "offset [µs]", ranges.OFFSET_RANGE)) for c, v in pairs))
+    return SetOffsets(tuple((_channel(c), _number(v, _NO_OFFSET, ranges.OFFSET_RANGE)) for c, v in pairs))
 
 
 def _levels(match: re.Match[str]) -> SetLevels:
@@ -126,9 +137,7 @@ def _levels(match: re.Match[str]) -> SetLevels:
 
 
 def _byte(match: re.Match[str]) -> SetByte:
-    return SetByte(
-        _number(match[1], "bank", ranges.BANK_RANGE), _number(match[2], tr("number of eight pins"), ranges.BYTE_RANGE)
-    )
+    return SetByte(_number(match[1], _NO_BANK, ranges.BANK_RANGE), _number(match[2], _NO_BYTE, ranges.BYTE_RANGE))
 
 
 def _pulses(match: re.Match[str]) -> QueryPulses:
@@ -138,9 +147,7 @@ def _pulses(match: re.Match[str]) -> QueryPulses:
 def _digital(match: re.Match[str]) -> ReadDigital:
     inputs = re.findall("([A-F])(L?)", match[0])
     if len(inputs) > ranges.MOST_DIGITAL_INPUTS:
-        raise _OutsideError(
-            tr("more than {most_digital_inputs} inputs in one line", most_digital_inputs=ranges.MOST_DIGITAL_INPUTS)
-        )
+        raise _OutsideError(tr("more than {most} inputs in one line", most=ranges.MOST_DIGITAL_INPUTS))
     return ReadDigital(tuple((ranges.DIGITAL_INPUTS.index(name), bool(latched)) for name, latched in inputs))
 
 
@@ -149,17 +156,15 @@ def _analog(match: re.Match[str]) -> ReadAnalog:
 
 
 def _register(digits: str) -> int:
-    return _number(digits, "register", ranges.REGISTER_RANGE)
+    return _number(digits, _NO_REGISTER, ranges.REGISTER_RANGE)
 
 
 def _write_register(match: re.Match[str]) -> WriteRegister:
-    return WriteRegister(
-        _register(match[1]), _number(match[2], tr("value of the register"), ranges.REGISTER_VALUE_RANGE)
-    )
+    return WriteRegister(_register(match[1]), _number(match[2], _NO_REGISTER_VALUE, ranges.REGISTER_VALUE_RANGE))
 
 
 def _delete(match: re.Match[str]) -> DeleteStartup:
-    return DeleteStartup(_number(match[1], tr("number of characters"), ranges.DELETE_RANGE))
+    return DeleteStartup(_number(match[1], _NO_COUNT, ranges.DELETE_RANGE))
 
 
 def _checked(build: Callable[[re.Match[str]], Command]) -> Callable[[re.Match[str]], Command | Dropped]:

@@ -46,7 +46,7 @@ def encode(command: Command) -> bytes:
 
 def _number(value: int, what: str, ends: tuple[int, int]) -> str:
     if not ranges.within(value, ends):
-        raise SettingError(what, value, tr("from {ends} to {ends2}", ends=ends[0], ends2=ends[1]))
+        raise SettingError(what, value, tr("from {least} to {most}", least=ends[0], most=ends[1]))
     return f"{value:d}"
 
 
@@ -85,7 +85,7 @@ def _byte(command: SetByte) -> str:
 
 
 def _digital(command: ReadDigital) -> str:
-    _number(len(command.inputs), tr("number of inputs"), (1, ranges.MOST_DIGITAL_INPUTS))
+    _number(len(command.inputs), "number of inputs", (1, ranges.MOST_DIGITAL_INPUTS))
     return "".join(_pin(ranges.DIGITAL_INPUTS, pin) + "L" * latched for pin, latched in command.inputs)
 
 
@@ -109,7 +109,7 @@ def _write_register(command: WriteRegister) -> str:
 def _append(command: AppendStartup) -> str:
     if not (command.text.isascii() and (command.text + " ").isprintable()):
         raise SettingError("text", command.text, tr("of printable ASCII characters"))
-    _number(len(command.text), tr("length of the text"), (0, ranges.LONGEST_STARTUP))
+    _number(len(command.text), "length of the text", (0, ranges.LONGEST_STARTUP))
     return f"SSCAT {command.text}"
 
 

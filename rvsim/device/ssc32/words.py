@@ -30,10 +30,22 @@ from rvsim.device.ssc32.commands import (
     WriteRegister,
 )
 from rvsim.device.ssc32.replies import ReplyDecoder
-from rvsim.language import tr
+from rvsim.device.words import one_after_another
+from rvsim.language import listed, tr, tr_later, trn
 
 Names: TypeAlias = Mapping[int, str]
 NO_NAMES: Names = MappingProxyType({})
+# How long moves take: by whether it is several servos, and what is said of their time.
+_PACES: dict[tuple[bool, str], str] = {
+    (False, "time"): tr_later("{moves} in {time} ms"),
+    (True, "time"): tr_later("{moves}, together in {time} ms"),
+    (False, "time and speed"): tr_later("{moves} in at least {time} ms"),
+    (True, "time and speed"): tr_later("{moves}, together in at least {time} ms"),
+    (False, "speed"): "{moves}",
+    (True, "speed"): tr_later("{moves}, together"),
+    (False, ""): tr_later("{moves} at full speed"),
+    (True, ""): tr_later("{moves}, together at full speed"),
+}
 
 
 def sent_in_words(line: bytes, names: Names = NO_NAMES, asleep: Set[int] = frozenset()) -> str:
@@ -45,7 +57,7 @@ def sent_in_words(line: bytes, names: Names = NO_NAMES, asleep: Set[int] = froze
         asleep: channels whose position the board does not know: they jump.
     """
     lines = line.removesuffix(b"\r").split(b"\r")
-    return "; ".join(_line(one, names, asleep) for one in lines)
+    return one_after_another(_line(one, names, asleep) for one in lines)
 
 
 def _line(line: bytes, names: Names, asleep: Set[int]) -> str:
@@ -62,70 +74,68 @@ def _line(line: bytes, names: Names, asleep: Set[int]) -> str:
     return _COMMANDS[type(command)](command, names)
 
 
-def _listed(parts: Sequence[str]) -> str:
-    """A, b and c."""
-    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
-
-
 def _name(channel: int, names: Names) -> str:
-    return names.get(channel, f"servo {channel}")
+    return tr(names[channel]) if channel in names else tr("servo {channel}", channel=channel)
 
 
 def _move(move: Move, names: Names, asleep: Set[int]) -> str:
     waking = tuple(servo for servo in move.servos if servo.pulse_us and servo.channel in asleep)
     rest = replace(move, servos=tuple(servo for servo in move.servos if servo not in waking))
-    said = [_listed([_servo(servo, names) for servo in rest.servos]) + _duration(rest)] if rest.servos else []
-    return "; ".join([*([_waking(waking, move.time_ms, names)] if waking else []), *said])
+    said = [_going(rest, names)] if rest.servos else []
+    return one_after_another([*([_waking(waking, move.time_ms, names)] if waking else []), *said])
 
 
 def _waking(servos: Sequence[ServoMove], time_ms: int | None, names: Names) -> str:
     """The board knows no position from which a first move could be slow."""
-    known = _listed([f"{'the ' if servo.channel in names else ''}{_name(servo.channel, names)}" for servo in servos])
-    aims = _listed([str(servo.pulse_us) for servo in servos])
+    jump = trn(
+        "wakes {servos}: it jumps to {pulses} µs",
+        "wakes {servos}: they jump to {pulses} µs",
+        len(servos),
+        servos=listed([_named(servo.channel, names) for servo in servos]),
+        pulses=listed([str(servo.pulse_us) for servo in servos]),
+    )
     given = [*("T" for _ in range(time_ms is not None)), *("S" for _ in range(any(servo.speed for servo in servos)))]
-    ignored = (
-        tr(", {listed} {value} ignored", listed=_listed(given), value="are" if len(given) > 1 else "is")
-        if given
-        else ""
-    )
-    return tr(
-        "wakes {known}: {value} to {aims} µs{ignored}",
-        known=known,
-        value=tr("they jump") if len(servos) > 1 else tr("it jumps"),
-        aims=aims,
-        ignored=ignored,
-    )
+    if not given:
+        return jump
+    return trn("{jump}, {letters} is ignored", "{jump}, {letters} are ignored", len(given), jump=jump,
+               letters=listed(given))  # fmt: skip
+
+
+def _named(channel: int, names: Names) -> str:
+    return tr("the {joint}", joint=_name(channel, names)) if channel in names else _name(channel, names)
+
+
+def _going(move: Move, names: Names) -> str:
+    """All servos of a line, and how long they take."""
+    moves = listed([_servo(servo, names) for servo in move.servos])
+    going = [servo for servo in move.servos if servo.pulse_us]
+    if not going:
+        return moves
+    told = [*(["time"] if move.time_ms else []), *(["speed"] if any(servo.speed for servo in going) else [])]
+    return tr(_PACES[len(going) > 1, " and ".join(told)], moves=moves, time=move.time_ms)
 
 
 def _servo(servo: ServoMove, names: Names) -> str:
     name = _name(servo.channel, names)
     if not servo.pulse_us:
-        return tr("{name} off (limp)", name=name)
-    speed = "" if servo.speed is None else tr(" at no more than {speed} µs/s", speed=servo.speed)
-    return f"{name} to {servo.pulse_us} µs{speed}"
-
-
-def _duration(move: Move) -> str:
-    moving = [servo for servo in move.servos if servo.pulse_us]
-    together = ", together" if len(moving) > 1 else ""
-    return together + _pace(move.time_ms, any(servo.speed for servo in moving)) if moving else ""
-
-
-def _pace(time_ms: int | None, limited: bool) -> str:
-    if time_ms:
-        return f" in {'at least ' if limited else ''}{time_ms} ms"
-    return "" if limited else tr(" at full speed")
+        return tr("{servo} off (limp)", servo=name)
+    if servo.speed is None:
+        return tr("{servo} to {pulse} µs", servo=name, pulse=servo.pulse_us)
+    return tr("{servo} to {pulse} µs at no more than {speed} µs/s", servo=name, pulse=servo.pulse_us, speed=servo.speed)
 
 
 def _offsets(command: SetOffsets, names: Names) -> str:
-    parts = [f"{_name(channel, names)} by {offset:+d} µs" for channel, offset in command.offsets]
-    return tr("shift all pulses of {listed}, until the power goes", listed=_listed(parts))
+    parts = [
+        tr("{servo} by {offset:+d} µs", servo=_name(channel, names), offset=offset)
+        for channel, offset in command.offsets
+    ]
+    return tr("shift all pulses of {servos}, until the power goes", servos=listed(parts))
 
 
 def _levels(command: SetLevels, _: Names) -> str:
-    return _listed(
+    return listed(
         [
-            tr("pin {channel} {value}", channel=channel, value="high (5 V)" if high else "low (0 V)")
+            tr("pin {pin} high (5 V)", pin=channel) if high else tr("pin {pin} low (0 V)", pin=channel)
             for channel, high in command.levels
         ]
     )
@@ -134,38 +144,53 @@ def _levels(command: SetLevels, _: Names) -> str:
 def _byte(command: SetByte, _: Names) -> str:
     first = 8 * command.bank
     return tr(
-        "pins {first} to {first2} to the bits of {value} ({value:08b}, the last is pin {first})",
+        "pins {first} to {last} to the bits of {number} ({number:08b}, the last is pin {first})",
         first=first,
-        first2=first + 7,
-        value=command.value,
+        last=first + 7,
+        number=command.value,
     )
 
 
 def _digital(command: ReadDigital, _: Names) -> str:
-    names = [ranges.DIGITAL_INPUTS[pin] for pin, _ in command.inputs]
+    names = listed([ranges.DIGITAL_INPUTS[pin] for pin, _ in command.inputs])
     latched = [ranges.DIGITAL_INPUTS[pin] for pin, latched in command.inputs if latched]
-    since = tr(" ({listed}: or has been low since the last time)", listed=_listed(latched)) if latched else ""
-    return tr("is {listed} high or low?{since}", listed=_listed(names), since=since)
+    if not latched:
+        return tr("is {inputs} high or low?", inputs=names)
+    return tr(
+        "is {inputs} high or low? ({latched}: or has been low since the last time)",
+        inputs=names,
+        latched=listed(latched),
+    )
 
 
 def _analog(command: ReadAnalog, _: Names) -> str:
-    return tr("what is the voltage of {listed}?", listed=_listed([ranges.ANALOG_INPUTS[pin] for pin in command.inputs]))
+    return tr("what is the voltage of {inputs}?", inputs=listed([ranges.ANALOG_INPUTS[pin] for pin in command.inputs]))
 
 
 def _pulses(command: QueryPulses, names: Names) -> str:
     return tr(
-        "which pulse does the board send to {listed}?",
-        listed=_listed([_name(channel, names) for channel in command.channels]),
+        "which pulse does the board send to {servos}?",
+        servos=listed([_name(channel, names) for channel in command.channels]),
     )
 
 
 def _stop(command: Stop, names: Names) -> str:
-    return tr("{name} stops where it is", name=_name(command.channel, names))
+    return tr("{servo} stops where it is", servo=_name(command.channel, names))
 
 
 def _write_register(command: WriteRegister, _: Names) -> str:
     return tr(
-        "register {register} becomes {value} when the power comes again", register=command.register, value=command.value
+        "register {register} becomes {number} when the power comes again",
+        register=command.register,
+        number=command.value,
+    )
+
+
+def _delete(command: DeleteStartup, _: Names) -> str:
+    return trn(
+        "delete the last {n} character of the startup text",
+        "delete the last {n} characters of the startup text",
+        command.count,
     )
 
 
@@ -184,7 +209,7 @@ _COMMANDS: dict[type[Any], Callable[[Any, Names], str]] = {
     RestoreRegisters: lambda *_: tr("all registers as they left the factory"),
     ShowStartup: lambda *_: tr("what is the startup text?"),
     AppendStartup: lambda command, _: tr("add “{text}” to the startup text", text=command.text),
-    DeleteStartup: lambda command, _: tr("delete the last {count} characters of the startup text", count=command.count),
+    DeleteStartup: _delete,
 }
 
 
@@ -209,25 +234,34 @@ def reply_in_words(query: Query | None, data: bytes, names: Names = NO_NAMES) ->
 
 def _pulses_said(query: QueryPulses, pulses_us: tuple[int, ...], names: Names) -> str:
     pairs = zip(query.channels, pulses_us, strict=True)
-    said = [f"{_name(channel, names)} {f'{pulse} µs' if pulse else 'no pulse'}" for channel, pulse in pairs]
-    return tr("the board sends to {listed} (commanded, not measured)", listed=_listed(said))
+    said = [_pulse_said(_name(channel, names), pulse) for channel, pulse in pairs]
+    return tr("the board sends to {servos} (commanded, not measured)", servos=listed(said))
+
+
+def _pulse_said(name: str, pulse_us: int) -> str:
+    if pulse_us:
+        return tr("{servo} {pulse} µs", servo=name, pulse=pulse_us)
+    return tr("{servo} no pulse", servo=name)
 
 
 def _digital_said(query: ReadDigital, levels: tuple[bool, ...], _: Names) -> str:
     pairs = zip(query.inputs, levels, strict=True)
-    said = [f"{ranges.DIGITAL_INPUTS[pin]} {_level(level, latched)}" for (pin, latched), level in pairs]
-    return _listed(said)
+    said = [tr(_LEVELS[latched, high], pin=ranges.DIGITAL_INPUTS[pin]) for (pin, latched), high in pairs]
+    return listed(said)
 
 
-def _level(high: bool, latched: bool) -> str:
-    if latched:
-        return tr("always high since the last time") if high else tr("low, or has been")
-    return "high" if high else "low"
+# By whether the input latches, and whether it is high.
+_LEVELS = {
+    (False, False): tr_later("{pin} low"),
+    (False, True): tr_later("{pin} high"),
+    (True, False): tr_later("{pin} low, or has been"),
+    (True, True): tr_later("{pin} always high since the last time"),
+}
 
 
 def _analog_said(query: ReadAnalog, volts: tuple[float, ...], _: Names) -> str:
     pairs = zip(query.inputs, volts, strict=True)
-    return _listed([f"{ranges.ANALOG_INPUTS[pin]} {volt:.2f} V" for pin, volt in pairs])
+    return listed([f"{ranges.ANALOG_INPUTS[pin]} {volt:.2f} V" for pin, volt in pairs])
 
 
 _ANSWERS: dict[type[Any], Callable[[Any, Any, Names], str]] = {
@@ -235,8 +269,10 @@ _ANSWERS: dict[type[Any], Callable[[Any, Any, Names], str]] = {
     QueryPulses: _pulses_said,
     ReadDigital: _digital_said,
     ReadAnalog: _analog_said,
-    QueryVersion: lambda _, text, __: tr("the board calls itself {text}", text=text),
-    ReadRegister: lambda query, value, _: tr("register {register} holds {value}", register=query.register, value=value),
+    QueryVersion: lambda _, text, __: tr("the board calls itself {name}", name=text),
+    ReadRegister: lambda query, value, _: tr(
+        "register {register} holds {number}", register=query.register, number=value
+    ),
     RestoreRegisters: lambda *_: tr("the registers are as they left the factory"),
     ShowStartup: lambda _, text, __: (
         tr("the startup text is “{text}”", text=text) if text else tr("there is no startup text")

@@ -41,7 +41,6 @@ from rvsim.device.virtual.contract import BoolArray, ChannelState, Measure
 from rvsim.device.virtual.faults import NO_FAULTS, Fault
 from rvsim.device.virtual.inputs import AnalogInputs, DigitalInputs, potentiometer_volts
 from rvsim.device.virtual.memory import Memory
-from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.servo import Servo
 from rvsim.robot.servos import pulses_of
@@ -75,7 +74,7 @@ class Ssc32Board:
         self.faults = NO_FAULTS
         self.memory = Memory()
         self._servos, self._measure, self._version = tuple(servos), measure, version
-        self._potentiometers, self._dice = potentiometers, random.Random(tr("analog {seed}", seed=seed))
+        self._potentiometers, self._dice = potentiometers, random.Random(f"analog {seed}")
         self._clock = Clock()
         self._answers = bytearray()
         self._digital = DigitalInputs()

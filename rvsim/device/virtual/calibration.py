@@ -29,7 +29,7 @@ def hidden_servos(robot: Robot, seed: int) -> tuple[tuple[Servo, ...], GripperSe
         raise RobotDefinitionError(
             robot.name, tr("it has no [[servo]] tables, so there is nothing to drive on a wire.")
         )
-    dice = random.Random(tr("servos of {name} {seed}", name=robot.name, seed=seed))
+    dice = random.Random(f"servos of {robot.name} {seed}")
     servos = tuple(_hidden_servo(servo, dice, flips=seed != 0) for servo in robot.servos)
     gripper = robot.gripper_servo
     return servos, None if gripper is None else _hidden_gripper(gripper, dice, flips=seed != 0)

@@ -16,7 +16,7 @@ class Fault(StrEnum):
     SPLIT_REPLY = tr_later("reply split")
     DUPLICATED_REPLY = tr_later("reply duplicated")
     CORRUPTED_REPLY = tr_later("reply corrupted")
-    WRONG_BAUD = "wrong baud"
+    WRONG_BAUD = tr_later("wrong baud")
     STUCK_MOVING = tr_later("stuck “moving”")
     BROWN_OUT = tr_later("brown-out now")
     BROWN_OUT_IN_MOVE = tr_later("brown-out in mid-move")

@@ -16,7 +16,6 @@ from rvsim.device.virtual.faults import (
     Fault,
     Faults,
 )
-from rvsim.language import tr
 
 MOST_PIECES = 4096  # answers that nobody reads are forgotten, the oldest first
 ANSWER_DELAY = 600_000  # [ns] the manual's transmit delay
@@ -33,7 +32,7 @@ class Wire:
     def use(self, faults: Faults) -> None:
         """From now on these faults; what is random in them begins anew."""
         self._faults = faults
-        self._dice = random.Random(tr("wire {seed}", seed=faults.seed))
+        self._dice = random.Random(f"wire {faults.seed}")
         if Fault.PORT_VANISHES in faults:
             self.clear()
 
