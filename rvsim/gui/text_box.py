@@ -13,6 +13,11 @@ _LONG_WORD = re.compile(r"\S{1000}")
 _WRAP = QTextOption.WrapMode
 
 
+def wrap_mode(text: str) -> QTextOption.WrapMode:
+    """Between words; anywhere where one of them is so long that it would take long to find places in it."""
+    return _WRAP.WrapAnywhere if _LONG_WORD.search(text) else _WRAP.WrapAtWordBoundaryOrAnywhere
+
+
 class TextBox(QPlainTextEdit):
     """Takes at most `longest` characters; of what is pasted or dropped the rest is left out.
 
@@ -48,5 +53,5 @@ class TextBox(QPlainTextEdit):
             self.left_out.emit()
 
     def _wrap_for(self, text: str) -> None:
-        if _LONG_WORD.search(text):
+        if wrap_mode(text) == _WRAP.WrapAnywhere:
             self.setWordWrapMode(_WRAP.WrapAnywhere)

@@ -19,6 +19,7 @@ from PySide6.QtGui import (
     QTextOption,
 )
 
+from rvsim.gui.text_box import wrap_mode
 from rvsim.lab.report.values import Run, Words, runs
 from rvsim.language import tr, tr_later
 
@@ -108,7 +109,7 @@ class Text:
         text = "".join(run.text for run in pieces)
         self._layout = QTextLayout(text, font(face))
         option = QTextOption(Qt.AlignmentFlag.AlignJustify if justified else Qt.AlignmentFlag.AlignLeft)
-        option.setWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
+        option.setWrapMode(wrap_mode(text))
         self._layout.setTextOption(option)
         self._layout.setFormats(_formats(pieces, face))
         self._layout.beginLayout()
