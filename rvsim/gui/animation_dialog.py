@@ -246,6 +246,8 @@ class AnimationDialog(QDialog):
 
     def _end(self) -> None:
         self._slice.stop()
+        if self._animation is not None:
+            self._animation.give_up()
         self._worker.cancel()
         self._animation = None
         self._show_busy(False)
