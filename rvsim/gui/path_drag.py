@@ -15,14 +15,14 @@ from rvsim.gui.scene_view import Grabber
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.lab.shape_paths import placed_task, placement_of
-from rvsim.language import tr, tr_later
+from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene import Ray
 from rvsim.scene.gizmo import GIZMO_KEY, Gizmo, Grip, Handle, dragged, gizmo_at, gizmo_items, handle_under, take_hold
 from rvsim.scene.primitives import Item
 from rvsim.spatial import rotation_from_rpy, rpy_from_rotation, transform
 
-LAYER = tr_later("path gizmo")
+LAYER = "path gizmo"
 SIZE = "size"  # the arrow along the diagonal, which scales
 _SNAP_ANGLE = math.radians(5.0)
 _SNAP_SCALE = 0.1

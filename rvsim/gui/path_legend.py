@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, Qt
+from PySide6.QtCore import QEvent, QObject, QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QStyle, QWidget
 
 from rvsim.gui.renderers.painter_ink import qcolor
 from rvsim.language import tr
@@ -99,9 +99,15 @@ class PathLegend(QWidget):
         middle = top + self._line() / 2
         style = Qt.PenStyle.DashLine if entry.dashed else Qt.PenStyle.SolidLine
         painter.setPen(QPen(qcolor(entry.color), 2.2, style))
-        painter.drawLine(QPointF(_PAD, middle), QPointF(_PAD + _SWATCH, middle))
-        box = QRectF(_PAD, top, _SWATCH, self._line())
+        box = self._placed(_PAD, top, _SWATCH)
+        painter.drawLine(QPointF(box.left(), middle), QPointF(box.left() + _SWATCH, middle))
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, entry.sign)
         painter.setPen(qcolor(self._ink))
-        text = QRectF(2.0 * _PAD + _SWATCH, top, self.width(), self._line())
-        painter.drawText(text, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, entry.text)
+        text = self._placed(2.0 * _PAD + _SWATCH, top, self.width() - 2.0 * _PAD - _SWATCH)
+        side = QStyle.visualAlignment(self.layoutDirection(), Qt.AlignmentFlag.AlignLeft)
+        painter.drawText(text, side | Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignAbsolute, entry.text)
+
+    def _placed(self, left: float, top: float, width: float) -> QRectF:
+        """The box of a line, counted from the side where the language begins to be read."""
+        box = QRect(round(left), round(top), round(width), self._line())
+        return QRectF(QStyle.visualRect(self.layoutDirection(), self.rect(), box))

@@ -17,11 +17,11 @@ from rvsim.gui.tracker import takes_long
 from rvsim.gui.workers import LatestWorker
 from rvsim.lab.orientations import normal_gap
 from rvsim.lab.shape_paths import plane_normal, task_path
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, trn
 from rvsim.motion import Path, Tracking, track
 from rvsim.scene.paths import path_items
 
-LAYER = tr_later("path preview")
+LAYER = "path preview"
 _MARKED_POINTS = 25
 _WORTH_SAYING = np.radians(0.5)
 
@@ -125,18 +125,12 @@ class PathPreview(QObject):
 
     def _said(self, tracking: Tracking) -> Reach:
         share = tracking.reached_count / tracking.samples
-        limits = tr("in reach") if tracking.ignore_limits else tr("within limits")
         percent = 100 if tracking.complete else min(int(100.0 * share), 99)
-        parts = [f"{percent} % {limits}"]
+        free = tracking.ignore_limits
+        said = tr("{percent} % in reach", percent=percent) if free else tr("{percent} % within limits", percent=percent)
         if tracking.jumps:
-            parts.append(
-                tr(
-                    "{count} jump{value} between branches",
-                    count=len(tracking.jumps),
-                    value="s" if len(tracking.jumps) > 1 else "",
-                )
-            )
-        return Reach(share, ", ".join(parts) + self._tilt(tracking), tracking.complete and not tracking.jumps)
+            said += tr(", ") + trn("{n} jump between branches", "{n} jumps between branches", len(tracking.jumps))
+        return Reach(share, said + self._tilt(tracking), tracking.complete and not tracking.jumps)
 
     def _tilt(self, tracking: Tracking) -> str:
         """How far the tool is from the normal of the path's plane, where it is wanted to be normal and cannot."""

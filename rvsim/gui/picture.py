@@ -32,14 +32,13 @@ def save_image(image: QImage | QPixmap, path: str | Path) -> None:
     """
     ending = Path(path).suffix.lstrip(".").lower()
     if ending not in picture_formats():
-        found = (
-            tr("“.{ending}” is no picture format", ending=ending)
+        known = ", ".join(picture_formats())
+        reason = (
+            tr("“.{ending}” is no picture format. Known: {known}", ending=ending, known=known)
             if ending
-            else tr("the name has no ending such as .png")
+            else tr("the name has no ending such as .png. Known: {known}", known=known)
         )
-        raise FileWriteError(
-            path, tr("{found}. Known: {picture_formats}", found=found, picture_formats=", ".join(picture_formats()))
-        )
+        raise FileWriteError(path, reason)
     writer = QImageWriter(str(path), QByteArray(ending.encode()))
     picture = image.toImage() if isinstance(image, QPixmap) else image
     if not writer.write(picture):

@@ -10,11 +10,14 @@ from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.preferences import SETTINGS, Preferences
 from rvsim.gui.quantities import format_number
 from rvsim.gui.theme import set_role
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr, tr_later
 
 _TICKS = 10_000
 _NARROWEST, _SHORTEST = 320, 40  # [pixels] of the bar and of its slider
-_WORDS = {True: ("❚❚ Pause", "▶ Play", "■ Stop"), False: ("❚❚", "▶", "■")}  # with words, and as signs alone
+_WORDS = {
+    True: (tr_later("❚❚ Pause"), tr_later("▶ Play"), tr_later("■ Stop")),
+    False: ("❚❚", "▶", "■"),
+}  # with words, and as signs alone
 
 
 class PlayerBar(QWidget):
@@ -25,8 +28,8 @@ class PlayerBar(QWidget):
         self.setObjectName("player_bar")
         self._motion, self._preferences = motion, preferences
         self._least = 0  # [pixels] that signs, slider, speed and loop need
-        self.play = self._button("play_button", "▶ Play", tr("Play or pause (F5)"), motion.toggle)
-        self.stop = self._button("stop_button", "■ Stop", tr("Stop and go back to the beginning"), motion.stop)
+        self.play = self._button("play_button", tr("▶ Play"), tr("Play or pause (F5)"), motion.toggle)
+        self.stop = self._button("stop_button", tr("■ Stop"), tr("Stop and go back to the beginning"), motion.stop)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setObjectName("time_slider")
         self.slider.setAccessibleName(tr("Time"))
@@ -97,7 +100,7 @@ class PlayerBar(QWidget):
 
     def _show_words(self, *, words: bool) -> None:
         self._with_words = words
-        pause, _, stop = _WORDS[words]
+        pause, _, stop = map(tr, _WORDS[words])
         self.play.setMinimumWidth(QFontMetrics(self.play.font()).horizontalAdvance(pause) + 24)
         self.stop.setText(stop)
         self._show_state(self._motion.player.state)
@@ -131,7 +134,7 @@ class PlayerBar(QWidget):
         self._fit()
 
     def _show_state(self, state: str) -> None:
-        pause, play, _ = _WORDS[self._with_words]
+        pause, play, _ = map(tr, _WORDS[self._with_words])
         self.play.setText(pause if state == "playing" else play)
 
     def _show_time(self, time: float) -> None:
@@ -141,7 +144,7 @@ class PlayerBar(QWidget):
             ticks = 0
         else:
             whole = f" / {format_number(duration, 2)}" if self._with_words else ""
-            self.time.setText(f"{format_number(time, 2)}{whole} s")
+            self.time.setText(left_to_right(f"{format_number(time, 2)}{whole} s"))
             ticks = round(time / duration * _TICKS) if duration else 0
         with QSignalBlocker(self.slider):
             self.slider.setValue(ticks)

@@ -16,7 +16,7 @@ from rvsim.robot.arrays import FloatArray
 from rvsim.scene.primitives import Item
 from rvsim.scene.work_plane import WorkPlane, point_items, pointer_items, work_plane_items
 
-LAYER = tr_later("point clicks")
+LAYER = "point clicks"
 _STEP = {"millimetre": 1e-3, "unit": 1e-2}  # [m] a click is rounded to
 _COARSE = 10.0  # times that with Ctrl held
 _FARTHEST = 3.0  # sizes of the arm from its base
@@ -91,7 +91,7 @@ class PointClicks(QObject):
         self._view.unsetCursor()
         self._show()
         if on:
-            self._session.say(_BEGIN)
+            self._session.say(tr(_BEGIN))
         self.switched.emit(on)
 
     def _stand_before(self) -> None:
@@ -142,9 +142,9 @@ class PointClicks(QObject):
             return
         point = self._place(at, bool(modifiers & Qt.KeyboardModifier.ControlModifier))
         if point is None:
-            self._session.warn(_EDGE_ON)
+            self._session.warn(tr(_EDGE_ON))
         elif not self._is_near(point):
-            self._session.warn(_FAR)
+            self._session.warn(tr(_FAR))
         else:
             self._pick(point)
 
@@ -152,7 +152,7 @@ class PointClicks(QObject):
         before = self._session.experiment
         self.picked.emit(point)
         if self._session.experiment is not before:  # else it has been said why not
-            self._session.say(tr("Point at {text}. {go_on}", text=self.text(point), go_on=_GO_ON))
+            self._session.say(f"{tr('Point at {place}.', place=self.text(point))} {tr(_GO_ON)}")
 
     # --- inside ----------------------------------------------------------------------------------------------------
 

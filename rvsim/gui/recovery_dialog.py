@@ -15,7 +15,7 @@ from rvsim.gui.autosave import Leftover, leftovers
 from rvsim.gui.document import Document
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 
 _UNREADABLE = tr_later("a copy that cannot be read")
 
@@ -36,7 +36,7 @@ class RecoveryDialog(QDialog):
         self.setWindowTitle(tr("Recover"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._document = document
-        told = sorted(((_words(one), one) for one in left), key=lambda pair: _UNREADABLE in pair[0])
+        told = sorted(((_words(one), one) for one in left), key=lambda pair: tr(_UNREADABLE) in pair[0])
         self._left = [one for _, one in told]
         title = QLabel(tr("rvsim ended without being closed. Your work is still here."))
         title.setWordWrap(True)
@@ -75,7 +75,7 @@ class RecoveryDialog(QDialog):
         return row
 
     def _show_chosen(self, words: str) -> None:
-        self.recover_button.setEnabled(_UNREADABLE not in words)
+        self.recover_button.setEnabled(tr(_UNREADABLE) not in words)
 
     def _recover(self) -> None:
         if self._document.recover(self._left[self.list.currentRow()]):
@@ -110,5 +110,5 @@ def _words(leftover: Leftover) -> str:
     try:
         arm = load_session(leftover.file).state.experiment.robot.title
     except RvsimError:
-        arm = _UNREADABLE
-    return f"{name}\n{arm}, {when}"
+        arm = tr(_UNREADABLE)
+    return f"{name}\n{arm}, {left_to_right(when)}"

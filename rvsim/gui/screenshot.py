@@ -36,7 +36,7 @@ def save_screenshot(window: MainWindow, options: argparse.Namespace) -> int:
         _settle(300)
         save_image(window.picture(), Path(options.screenshot))
     except (RvsimError, OSError) as problem:
-        print(tr("rvsim: {problem}", problem=problem), file=sys.stderr)
+        print(f"rvsim: {problem}", file=sys.stderr)
         return 2
     print(options.screenshot)
     return 0
@@ -57,7 +57,7 @@ def _set_up(window: MainWindow, state: str) -> None:
     else:
         known = path_names(window.session.robot)
         if state not in known:
-            raise UnknownNameError("state", state, (*_STATES, *known))
+            raise UnknownNameError(tr("state"), state, (*_STATES, *known))
         window.session.edit(tr("Trajectory"), replace(experiment, trajectory=TrajectoryTask(state)))
         window.tracker.track_trajectory()
     while window.tracker.busy:

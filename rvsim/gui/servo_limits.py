@@ -57,21 +57,21 @@ def narrowing_sentence(wide: Robot, narrow: Robot) -> str:
         return ""
     parts = (
         tr(
-            "{joint_names} {span} instead of {span2}",
-            joint_names=wide.joint_names[j],
-            span=_span(narrow, j),
-            span2=_span(wide, j),
+            "{joint} {narrow} instead of {wide}",
+            joint=tr(wide.joint_names[j]),
+            narrow=_span(narrow, j),
+            wide=_span(wide, j),
         )
         for j in changed
     )
-    return tr("While it is connected its servos set the limits: {parts}.", parts=", ".join(parts))
+    return tr("While it is connected its servos set the limits: {parts}.", parts=tr(", ").join(parts))
 
 
 def _span(robot: Robot, joint: int) -> str:
     from rvsim.device.driver.plan import shown  # only who connects an arm needs the driver
 
     lower, upper = robot.limits[joint]
-    return f"{shown(robot, joint, lower)} to {shown(robot, joint, upper)}"
+    return tr("{lower} to {upper}", lower=shown(robot, joint, lower), upper=shown(robot, joint, upper))
 
 
 def _ends(robot: Robot) -> FloatArray:

@@ -178,13 +178,17 @@ class Session(QObject):
         return True
 
     def _why_not(self, violations: Sequence[LimitViolation]) -> str:
-        names = ", ".join(self.robot.joint_names[violation.joint] for violation in violations)
+        names = self._names(violations)
         if self.servo_limits is not None:
             servos = [one for one in violations if self.servo_limits.holds(self.robot, one)]
             if servos:
-                names = ", ".join(self.robot.joint_names[one.joint] for one in servos)
-                return tr("Not moved: the connected arm’s servos do not reach that ({names}).", names=names)
+                return tr(
+                    "Not moved: the connected arm’s servos do not reach that ({names}).", names=self._names(servos)
+                )
         return tr("Not moved: outside the limits of {names}. Switch “Ignore limits” on to go there.", names=names)
+
+    def _names(self, violations: Sequence[LimitViolation]) -> str:
+        return tr(", ").join(tr(self.robot.joint_names[violation.joint]) for violation in violations)
 
     def show_moment(self, q: ArrayLike, text: str, motion: int) -> None:
         """Show a moment of a motion. All moments of the same number in a row are one undo step, back to the first.
@@ -194,7 +198,7 @@ class Session(QObject):
         if not np.array_equal(q, self.q):
             self._showing_moment = True
             try:
-                self._change(text, self._experiment.at(q), self._moment_key(tr("motion {motion}", motion=motion)))
+                self._change(text, self._experiment.at(q), self._moment_key(f"motion {motion}"))
             finally:
                 self._showing_moment = False
 

@@ -17,7 +17,7 @@ from rvsim.gui.widgets import button, combo
 from rvsim.lab.sources.experiments import SOURCE_TITLES, experiment_of
 from rvsim.lab.sources.reproduce import KeyedReproduction, Reproduction, reproduction_parts, reproduction_text
 from rvsim.lab.sources.reproduction_texts import reproduction_csv, reproduction_latex, row_sentence
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -52,7 +52,7 @@ class SourcesDialog(QDialog):
     # --- construction ----------------------------------------------------------------------------------------------
 
     def _make_choices(self) -> None:
-        titles = {key: f"{key}  {title}" for key, title in SOURCE_TITLES.items()}
+        titles = {key: f"{key}  {tr(title)}" for key, title in SOURCE_TITLES.items()}
         self.sources = combo("sources_source", tr("Source"), {"": tr("All sources"), **titles})
         self.sources.currentIndexChanged.connect(lambda _: self._narrow())
         self.words = QLineEdit()
@@ -61,7 +61,7 @@ class SourcesDialog(QDialog):
         self.words.setAccessibleName(tr("Find in the table"))
         self.words.setClearButtonEnabled(True)
         self.words.textChanged.connect(lambda _: self._narrow())
-        formats = {"text": reproduction_text, "CSV": reproduction_csv, "LaTeX": reproduction_latex}
+        formats = {tr_later("text"): reproduction_text, "CSV": reproduction_csv, "LaTeX": reproduction_latex}
         makers = {name: (lambda make=make: make(self._plain_rows())) for name, make in formats.items()}
         self.copy = CopyButton("sources_copy", tr("the table"), makers, self._window.session)
 

@@ -36,7 +36,7 @@ def make_sources_menu(window: MainWindow) -> QMenu:
 
 
 def _menu_of(window: MainWindow, source: str, title: str) -> QMenu:
-    menu = QMenu(f"{source}  {title}", window)
+    menu = QMenu(f"{source}  {tr(title)}", window)
     menu.setObjectName(f"source_{source}_menu")
     table = menu.addAction(tr("Its numbers…"))
     table.setObjectName(f"action_source_{source}_numbers")
@@ -45,10 +45,14 @@ def _menu_of(window: MainWindow, source: str, title: str) -> QMenu:
     menu.addSeparator()
     groups = _groups(source)
     for group in groups:
-        inside = menu if len(groups) == 1 else menu.addMenu(f"{group[0].item} to {group[-1].item}")
+        inside = menu if len(groups) == 1 else menu.addMenu(_from_to(group))
         for experiment in group:
             _add(inside, window, experiment)
     return menu
+
+
+def _from_to(group: list[SourceExperiment]) -> str:
+    return tr("{first} to {last}", first=tr(group[0].item), last=tr(group[-1].item))
 
 
 def _groups(source: str) -> list[list[SourceExperiment]]:
@@ -63,9 +67,9 @@ def _groups(source: str) -> list[list[SourceExperiment]]:
 
 
 def _add(menu: QMenu, window: MainWindow, experiment: SourceExperiment) -> None:
-    action = menu.addAction(f"{experiment.item}: {experiment.title}".replace("&", "&&"))
+    action = menu.addAction(f"{tr(experiment.item)}: {tr(experiment.title)}".replace("&", "&&"))
     action.setObjectName(f"action_experiment_{experiment.key}")
-    action.setStatusTip(experiment.shows)
+    action.setStatusTip(tr(experiment.shows))
     action.triggered.connect(partial(_show, window, experiment))
 
 

@@ -26,17 +26,16 @@ def show_experiment(window: MainWindow, experiment: SourceExperiment) -> None:
     window.tracker.cancel()
     _set_up(window, experiment)
     setup = experiment.setup
-    window.session.say(
-        tr("Source {source}, {item}: {shows}", source=experiment.source, item=experiment.item, shows=experiment.shows)
-    )
+    item, shows = tr(experiment.item), tr(experiment.shows)
+    window.session.say(tr("Source {source}, {item}: {shows}", source=experiment.source, item=item, shows=shows))
     _prepare_pages(window, setup)
     window.docks.show_panel(setup.panel)
-    _run(window, setup, tr("Source {source}, {item}", source=experiment.source, item=experiment.item))
+    _run(window, setup, tr("Source {source}, {item}", source=experiment.source, item=item))
 
 
 def _set_up(window: MainWindow, experiment: SourceExperiment) -> None:
     session, stack = window.session, window.session.undo_stack
-    stack.beginMacro(tr("Show source {source}, {item}", source=experiment.source, item=experiment.item))
+    stack.beginMacro(tr("Show source {source}, {item}", source=experiment.source, item=tr(experiment.item)))
     session.use_robot(_bare(window.library[experiment.robot]))
     session.edit(tr("Set up"), experiment.setup.applied(session.experiment))
     stack.endMacro()

@@ -15,7 +15,7 @@ from rvsim.gui.theme import THEMES
 from rvsim.lab.sources.experiments import SOURCE_TITLES, experiment_of
 from rvsim.lab.sources.reproduce import KeyedReproduction
 from rvsim.lab.sources.reproduction_texts import COLUMNS, row_sentence, shown_cells
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr, tr_later, without_isolates
 
 Index = QModelIndex | QPersistentModelIndex
 _TOP = QModelIndex()
@@ -23,15 +23,15 @@ _ITEM, _VERDICT = COLUMNS.index("Item"), COLUMNS.index("Verdict")
 _NUMBERS = range(_ITEM + 1, _VERDICT)
 # A sign and the theme's colour for each verdict.
 SIGNS = {
-    "confirmed": ("✓", "good"),
-    "computed": ("=", "muted"),
-    "misprint": ("✗", "error"),
-    "contradiction": ("≠", "error"),
-    "undefined": ("?", "error"),
-    "ignored": ("○", "warning"),
-    "outside limits": ("▲", "warning"),
-    "partly reached": ("◐", "warning"),
-    "cannot be reached": ("⊘", "error"),
+    tr_later("confirmed"): ("✓", "good"),
+    tr_later("computed"): ("=", "muted"),
+    tr_later("misprint"): ("✗", "error"),
+    tr_later("contradiction"): ("≠", "error"),
+    tr_later("undefined"): ("?", "error"),
+    tr_later("ignored"): ("○", "warning"),
+    tr_later("outside limits"): ("▲", "warning"),
+    tr_later("partly reached"): ("◐", "warning"),
+    tr_later("cannot be reached"): ("⊘", "error"),
 }
 _ORDER = tuple(SIGNS)
 _LONGEST, _DIGITS = 25, 4  # letters and digits of a cell; all of it stands in the tooltip and in the sentence below
@@ -93,23 +93,25 @@ class SourcesModel(QAbstractTableModel):
             return None
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return RIGHT if section in _NUMBERS else LEFT
-        return COLUMNS[section] if role == Qt.ItemDataRole.DisplayRole else None
+        return tr(COLUMNS[section]) if role == Qt.ItemDataRole.DisplayRole else None
 
 
 def _text(keyed: KeyedReproduction, column: int) -> str:
     text = shown_cells(keyed.row, _DIGITS)[column]
     if column == _VERDICT:
-        return f"{SIGNS[text][0]} {text}"
+        return f"{SIGNS[keyed.row.verdict][0]} {tr(keyed.row.verdict)}"
     if column in _NUMBERS and len(text) > _LONGEST:
-        return text[: text.rindex(", ", 0, _LONGEST - 3)] + ", …)"
-    return text
+        return left_to_right(text[: text.rindex(", ", 0, _LONGEST - 3)] + ", …)")
+    return left_to_right(text) if column in _NUMBERS else tr(text)
 
 
 def _tip(keyed: KeyedReproduction, column: int) -> str:
     if column == 0:
-        return SOURCE_TITLES[keyed.row.source]
+        return tr(SOURCE_TITLES[keyed.row.source])
     text = shown_cells(keyed.row)[column]
-    return f"{text}\n{experiment_of(keyed.key).title}" if column == _ITEM else text
+    if column == _ITEM:
+        return f"{tr(text)}\n{tr(experiment_of(keyed.key).title)}"
+    return tr(text) if column == _VERDICT else text
 
 
 class SourcesFilter(QSortFilterProxyModel):
@@ -132,7 +134,8 @@ class SourcesFilter(QSortFilterProxyModel):
         keyed = self.sourceModel().index(row, 0, parent).data(Qt.ItemDataRole.UserRole)
         if self._source not in ("", keyed.row.source):
             return False
-        return self._words in row_sentence(keyed.row, experiment_of(keyed.key)).casefold() + keyed.row.verdict
+        sentence, verdict = row_sentence(keyed.row, experiment_of(keyed.key)), tr(keyed.row.verdict)
+        return self._words in without_isolates(f"{sentence}{verdict}").casefold()
 
     @property
     def rows(self) -> tuple[KeyedReproduction, ...]:

@@ -27,6 +27,7 @@ from rvsim.gui.target_solution import (
     branch_at,
     followed,
     immediate_sentence,
+    label_title,
     landed,
     nearer,
     nearest_pose,
@@ -228,7 +229,7 @@ class TargetControl(QObject):
 
     def go_to(self, branch: Branch) -> None:
         """Let the arm go to a branch."""
-        self._go(branch.q, tr("Go to “{label}”", label=branch.label))
+        self._go(branch.q, tr("Go to “{branch}”", branch=label_title(branch.label)))
 
     def solve_now(self) -> None:
         """Solve, and go to the best branch by the order."""
@@ -279,7 +280,7 @@ class TargetControl(QObject):
 
     def _creeping_sentence(self, answer: Answer) -> str:
         if not answer.missed:
-            return tr("{ended} Others go on: choose one in the table.", ended=self._ended(answer, self._label))
+            return f"{self._ended(answer, self._label)} {tr('Others go on: choose one in the table.')}"
         asked = answer.failure is not None or answer.numeric is not None
         return self.sentence if asked else tr("Out of reach: the arm follows along the edge.")
 
@@ -291,12 +292,16 @@ class TargetControl(QObject):
             self.changed.emit()
 
     def _changed_branch(self, answer: Answer, before: str) -> str:
-        return tr("{ended} The arm went over to “{label}”.", ended=self._ended(answer, before), label=self._label)
+        went_over = tr("The arm went over to “{branch}”.", branch=label_title(self._label))
+        return f"{self._ended(answer, before)} {went_over}"
 
     def _ended(self, answer: Answer, before: str) -> str:
         old = [branch for branch in answer.branches if branch.label == before]
         words = limit_words(answer.question.robot, old[0], self._preferences) if old else ""
-        return tr("The branch “{before}” ends here{value}.", before=before, value=words and f": {words}")
+        title = label_title(before)
+        if not words:
+            return tr("The branch “{branch}” ends here.", branch=title)
+        return tr("The branch “{branch}” ends here: {words}.", branch=title, words=words)
 
     def _go(self, q: ArrayLike, text: str) -> None:
         experiment = self.session.experiment

@@ -57,7 +57,7 @@ class TargetScene(QObject):
             ]
         if control.nearest is not None:
             ghosts.append(
-                Ghost("nearest", "nearest", control.nearest.q, True, lit=not any(ghost.lit for ghost in ghosts))
+                Ghost("nearest", tr("nearest"), control.nearest.q, True, lit=not any(ghost.lit for ghost in ghosts))
             )
         return ghost_items(answer.question.robot, ghosts, palette, self._preferences["look"])
 
@@ -67,7 +67,7 @@ class TargetScene(QObject):
         reached = control.nearest.T if control.nearest is not None else None
         tool = reached if reached is not None else forward_kinematics(robot, control.session.q)
         frame = Triads(
-            tr("{ghost_key}.target", ghost_key=GHOST_KEY),
+            f"{GHOST_KEY}.target",
             control.T[None],
             _FRAME * robot.size,
             letters=False,
@@ -79,12 +79,12 @@ class TargetScene(QObject):
             return ()
         items: list[Item] = [
             frame,
-            Labels(tr("{ghost_key}.target.name", ghost_key=GHOST_KEY), (_target_label(control.T, palette),)),
+            Labels(f"{GHOST_KEY}.target.name", (_target_label(control.T, palette),)),
         ]
         if away:
-            items.append(Polyline(tr("{ghost_key}.gap", ghost_key=GHOST_KEY), gap, palette.unreached, 2.0, dashed=True))
+            items.append(Polyline(f"{GHOST_KEY}.gap", gap, palette.unreached, 2.0, dashed=True))
         return tuple(items)
 
 
 def _target_label(T: np.ndarray, palette: ScenePalette) -> Label:
-    return Label(T[:3, 3], "target", palette.unreached, (12.0, 36.0), 13.0)
+    return Label(T[:3, 3], tr("target"), palette.unreached, (12.0, 36.0), 13.0)

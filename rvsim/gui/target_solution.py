@@ -27,8 +27,9 @@ from rvsim.kinematics.inverse.creep import Crept, creep
 from rvsim.kinematics.inverse.nearest import nearest_configuration
 from rvsim.kinematics.inverse.result import in_order
 from rvsim.kinematics.inverse.solve import attempt
+from rvsim.kinematics.inverse.words import branch_title
 from rvsim.lab.sentences import Units, failure_sentence
-from rvsim.language import tr_later
+from rvsim.language import tr, tr_later
 from rvsim.motion.continuity import continuous
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -51,11 +52,16 @@ TASK_TITLES = {
     "x,y": tr_later("Position in the plane, x and y"),
 }
 _KEPT = {"position, wrist kept": (3, 4)}  # the joints that a task leaves as they are
-PLACES = ("position", tr_later("position, wrist kept"), "x,y")  # tasks that leave the whole orientation open
+PLACES = ("position", "position, wrist kept", "x,y")  # tasks that leave the whole orientation open
 _CREEPING_STEPS = 8  # of Newton's method, a tenth of a millisecond each
 LEAP = 0.25  # [rad, m] an arm that was left behind goes no further back to the target at once
 _LANDED = 0.02  # [rad, m] what creeping leaves of the way to a branch: it goes slowly where it is singular
 _HERE = 1e-9  # [rad, m] a branch so close is where the arm is
+
+
+def label_title(label: str) -> str:
+    """The label of a row of an answer as it is said: that of a branch, or of the solver that found it."""
+    return tr(label) if label in SOLVER_TITLES.values() else branch_title(label)
 
 
 class Offer(NamedTuple):
@@ -275,6 +281,6 @@ def immediate_sentence(answer: Answer, units: Units) -> str:
         return answer.numeric.reason
     failure = answer.failure
     if failure is None and answer.hurried:
-        return _NOT_ASKED
+        return tr(_NOT_ASKED)
     assert failure is not None, "no branch that can be used, and no reason"
-    return failure_sentence(failure, units) if failure.kind == "limits" else _AT_ONCE[failure.kind]
+    return failure_sentence(failure, units) if failure.kind == "limits" else tr(_AT_ONCE[failure.kind])

@@ -50,6 +50,7 @@ class ToolCard(QLabel):
         self.setAccessibleName(tr("Tool pose"))
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers behind their names, in any language
         session.changed.connect(self._on_changed)
         preferences.changed.connect(self._on_preference)
         self.move(_MARGIN, _MARGIN)
@@ -85,7 +86,7 @@ class ToolCard(QLabel):
         if kind == "angle":
             values = np.array([half_turn_up(float(value), shown) for value in values])
         numbers = tuple(format_number(float(value) * shown.factor, shown.decimals) for value in values)
-        return _Row(names, numbers, shown.suffix.strip(), self.fontMetrics().horizontalAdvance(widest))
+        return _Row(tuple(map(tr, names)), numbers, shown.suffix.strip(), self.fontMetrics().horizontalAdvance(widest))
 
     def _columns(self) -> tuple[list[int], list[int], int]:
         """How wide the names, the numbers and the unit of each column are [pixels]."""

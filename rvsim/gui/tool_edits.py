@@ -49,7 +49,7 @@ def moved_tool(experiment: Experiment, T: FloatArray, p: FloatArray, units: Unit
         if first.failure is not None and first.failure.kind == "orientation" and "position" in known[1:]:
             return _turned_along(experiment, target, units)
     except NoClosedFormError as problem:
-        return ToolEdit(sentence=tr("{problem} Set its joints instead.", problem=problem))
+        return ToolEdit(sentence=f"{problem} {tr('Set its joints instead.')}")
     return ToolEdit(sentence=_reason(robot, first.failure, units))
 
 
@@ -60,7 +60,7 @@ def turned_tool(experiment: Experiment, T: FloatArray, R: FloatArray, units: Uni
     try:
         solution = _solve(experiment, target, None)
     except NoClosedFormError as problem:
-        return ToolEdit(sentence=tr("{problem} Set its joints instead.", problem=problem))
+        return ToolEdit(sentence=f"{problem} {tr('Set its joints instead.')}")
     if solution.q is None:
         return ToolEdit(sentence=_reason(experiment.robot, solution.failure, units))
     return _followed(experiment.robot, solution.q, target, position_only=False)
@@ -80,15 +80,14 @@ def _followed(robot: Robot, q: FloatArray, target: FloatArray, *, position_only:
     left = difference.position if position_only else np.maximum(difference.position, difference.angle)
     if float(left) < _CLOSE:
         return ToolEdit(q)
-    way = "moved" if position_only else "turned"
-    return ToolEdit(
-        sentence=tr(
-            "The tool cannot be {way} that way: the {title} has {dof} joints.",
-            way=way,
-            title=robot.title,
-            dof=robot.dof,
-        )
-    )
+    return ToolEdit(sentence=_too_few_joints(robot, position_only=position_only))
+
+
+def _too_few_joints(robot: Robot, *, position_only: bool) -> str:
+    title, dof = robot.title, robot.dof
+    if position_only:
+        return tr("The tool cannot be moved that way: the {title} has {dof} joints.", title=title, dof=dof)
+    return tr("The tool cannot be turned that way: the {title} has {dof} joints.", title=title, dof=dof)
 
 
 def _turned_along(experiment: Experiment, target: FloatArray, units: Units) -> ToolEdit:
@@ -106,7 +105,8 @@ def _reason(robot: Robot, failure: Failure | None, units: Units) -> str:
     assert failure is not None, "no solution without a reason"
     sentence = failure_sentence(failure, units)
     if failure.kind == "orientation" and robot.dof < 6:
-        return tr("{sentence} With {dof} joints the tool's orientation is not free.", sentence=sentence, dof=robot.dof)
+        few = tr("With {dof} joints the tool's orientation is not free.", dof=robot.dof)
+        return f"{sentence} {few}"
     if failure.kind == "limits":
-        return tr("{sentence} Switch “Ignore limits” on to go there.", sentence=sentence)
+        return f"{sentence} {tr('Switch “Ignore limits” on to go there.')}"
     return sentence

@@ -183,14 +183,14 @@ class TourCard(QWidget):
     def show_step(self, number: int) -> None:
         """Say what a step has to say."""
         step, last = STEPS[number], number == len(STEPS) - 1
-        self.title.setText(step.title)
-        self.text.setText(step.text)
-        self.number.setText(f"{number + 1} of {len(STEPS)}")
+        self.title.setText(tr(step.title))
+        self.text.setText(tr(step.text))
+        self.number.setText(tr("{number} of {count}", number=number + 1, count=len(STEPS)))
         self.back_button.setEnabled(number > 0)
         self.skip_button.setVisible(not last)
         self.next_button.setText(tr("Done") if last else tr("Next"))
         self.setAccessibleName(
-            tr("Tour, step {number} of {count}: {title}", number=number + 1, count=len(STEPS), title=step.title)
+            tr("Tour, step {number} of {count}: {title}", number=number + 1, count=len(STEPS), title=tr(step.title))
         )
 
     def fitting(self) -> QSize:
@@ -205,7 +205,8 @@ class TourCard(QWidget):
     def _took(self, event: QKeyEvent) -> bool:
         key = Qt.Key(event.key())
         if key in _KEYS:
-            self._tour.go(self._tour.step + _KEYS[key])
+            turned = self.isRightToLeft() and key in (Qt.Key.Key_Left, Qt.Key.Key_Right)
+            self._tour.go(self._tour.step + (-_KEYS[key] if turned else _KEYS[key]))
         elif key == Qt.Key.Key_Escape:
             self._tour.end()
         else:

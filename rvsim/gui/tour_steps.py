@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtWidgets import QMenu, QScrollArea, QTabBar, QWidget
 
-from rvsim.language import tr_later
+from rvsim.language import tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
@@ -65,7 +65,7 @@ def _tab(panel: str, title: str) -> Callable[[MainWindow], QRect]:
         window.docks.show_panel(panel)
         for bar in window.findChildren(QTabBar):
             for index in range(bar.count() if bar.isVisible() else 0):
-                if bar.tabText(index) == title:
+                if bar.tabText(index) == tr(title):
                     tab = bar.tabRect(index)
                     return QRect(bar.mapTo(window, tab.topLeft()), tab.size()).intersected(window.rect())
         return QRect()
@@ -89,43 +89,57 @@ STEPS: tuple[Step, ...] = (
     ),
     Step(
         tr_later("Move a joint"),
-        "Drag a slider, or type a value: <b>30</b>, <b>90/4</b> and <b>pi/4 rad</b> all work. Try it now: the window "
-        "stays usable. Ctrl+Z takes anything back.",
+        tr_later(
+            "Drag a slider, or type a value: <b>30</b>, <b>90/4</b> and <b>pi/4 rad</b> all work. Try it now: the "
+            "window stays usable. Ctrl+Z takes anything back."
+        ),
         _rows("joint_slider_1", "joint_value_1", "joint_slider_2", "joint_value_2"),
     ),
     Step(
         tr_later("Look around"),
-        "Drag turns the scene, right-drag moves it, the wheel zooms, a double click centres. With <b>G</b> you can "
-        "drag the tool itself.",
+        tr_later(
+            "Drag turns the scene, right-drag moves it, the wheel zooms, a double click centres. With <b>G</b> you can "
+            "drag the tool itself."
+        ),
         _widgets("scene_view"),
     ),
     Step(
         tr_later("Follow a line"),
-        "Press this. Below it, <b>Result</b> then says how many points were reached and how exactly; where one is "
-        "missed, which joint stands in the way.",
+        tr_later(
+            "Press this. Below it, <b>Result</b> then says how many points were reached and how exactly; where one is "
+            "missed, which joint stands in the way."
+        ),
         _widgets("track_line_button", panel="path"),
     ),
     Step(
         tr_later("Move through time"),
-        "The motion plays here: stop, drag to any moment, play it slower. <b>View › Curves</b> draws joints, speeds "
-        "and torques over the same time.",
+        tr_later(
+            "The motion plays here: stop, drag to any moment, play it slower. <b>View › Curves</b> draws joints, "
+            "speeds and torques over the same time."
+        ),
         _widgets("play_button", "time_slider", "speed_selector"),
     ),
     Step(
         tr_later("Ask for a pose"),
-        "<b>Inverse</b> lists every way in which the arm can take a pose, works the solution out with its numbers, or "
-        "says why there is none.",
+        tr_later(
+            "<b>Inverse</b> lists every way in which the arm can take a pose, works the solution out with its numbers, "
+            "or says why there is none."
+        ),
         _tab("inverse", tr_later("Inverse")),
     ),
     Step(
         tr_later("Look inside"),
-        "<b>Inspect</b> shows the Jacobian, singularities, forces, dynamics and the workspace of the pose you see; "
-        "<b>Model</b> its matrices and DH table.",
+        tr_later(
+            "<b>Inspect</b> shows the Jacobian, singularities, forces, dynamics and the workspace of the pose you see; "
+            "<b>Model</b> its matrices and DH table."
+        ),
         _tab("jacobian", tr_later("Inspect")),
     ),
     Step(
         tr_later("When you want to know more"),
-        "<b>F1</b> explains the panel that you are in, with an example to try. This tour is in the same menu.",
+        tr_later(
+            "<b>F1</b> explains the panel that you are in, with an example to try. This tour is in the same menu."
+        ),
         _help_menu,
     ),
 )

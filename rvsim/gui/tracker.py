@@ -130,7 +130,7 @@ class PathTracker(QObject):
         """Track this path, "" for none, of a session that has been opened; nothing is played."""
         if kind:
             self._quiet = True
-            self._track(kind, tr("Track {kind}", kind=kind))
+            self._track(kind, tr("Track line") if kind == "line" else tr("Track trajectory"))
 
     def track_again(self) -> None:
         """The last path once more, for an arm with other limits; nothing is played."""

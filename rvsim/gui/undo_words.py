@@ -6,7 +6,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QUndoStack
 
 from rvsim.experiment import TrajectoryTask
-from rvsim.language import tr, tr_later
+from rvsim.language import language, tr, tr_later
 
 _TURNED = tr_later("Turn the tool along the trajectory")
 _TRAJECTORY_EDITS = {
@@ -36,12 +36,13 @@ class UndoWords(QObject):
 def trajectory_words(before: TrajectoryTask, after: TrajectoryTask) -> str:
     """What was changed in a trajectory, as the text of an undo step."""
     changed = (words for name, words in _TRAJECTORY_EDITS.items() if getattr(before, name) is not getattr(after, name))
-    return next(changed, tr("Edit the trajectory"))
+    return tr(next(changed, tr_later("Edit the trajectory")))
 
 
 def undo_words(verb: str, text: str) -> str:
-    """ "Undo: move joint 3" for "Move joint 3"; what is written in capitals stays so."""
+    """ "Undo: move joint 3" for "Move joint 3"; what is written in capitals stays so, and so do other languages."""
     if not text:
         return verb
-    small = text if text[1:2].isupper() else text[0].lower() + text[1:]
+    kept = text[1:2].isupper() or language().code != "en"
+    small = text if kept else text[0].lower() + text[1:]
     return f"{verb}: {small}".replace("&", "&&")
