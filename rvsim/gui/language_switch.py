@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QByteArray, QObject, QTimer
 from PySide6.QtWidgets import QApplication
 
 from rvsim.gui.document_state import port_section, show_view, view_of
@@ -45,7 +45,9 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     assert isinstance(app, QApplication)
     old.setUpdatesEnabled(False)
     old.motion.pause()
-    view, port, layout = view_of(old), port_section(old).settings, old.window_layout()
+    view, port = view_of(old), port_section(old).settings
+    geometry, layout = old.window_layout()
+    mirrored = LANGUAGES[code].right_to_left != language().right_to_left
     old.session.renew()
     old.preferences.renew()
     wear_language(app, code)
@@ -53,7 +55,7 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     new = MainWindow(old.session, old.preferences, old.library, old.choice)
     wear_theme(old.preferences)
     new.dress_narrowest()
-    new.lay_out(*layout)
+    new.lay_out(geometry, QByteArray() if mirrored else layout)
     port_section(new).show_settings(port)
     new.document.take_over(old.document)
     new.tracker.track_quietly(view.tracked)

@@ -53,7 +53,7 @@ from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.undo_words import UndoWords
 from rvsim.gui.widgets import ElidedLabel, column_of
-from rvsim.language import tr, tr_later
+from rvsim.language import language, tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.device.driver.state import DriverState
@@ -333,7 +333,7 @@ class MainWindow(QMainWindow):
     # --- layout ----------------------------------------------------------------------------------------------------
 
     def _restore_layout(self) -> None:
-        self.lay_out(self.preferences.window_state("geometry"), self.preferences.window_state("layout"))
+        self.lay_out(self.preferences.window_state("geometry"), self.preferences.window_state(_layout_key()))
 
     def lay_out(self, geometry: QByteArray, layout: QByteArray) -> None:
         """Take the geometry and dock layout that another window had; what is empty is left as it is."""
@@ -380,7 +380,7 @@ class MainWindow(QMainWindow):
             return
         geometry, layout = self.window_layout()
         self.preferences.keep_window_state("geometry", geometry)
-        self.preferences.keep_window_state("layout", layout)
+        self.preferences.keep_window_state(_layout_key(), layout)
         self.end()
         super().closeEvent(event)
 
@@ -393,3 +393,8 @@ class MainWindow(QMainWindow):
         self.laboratory.stop()
         self.docks.close_workers()
         self.collector.end()
+
+
+def _layout_key() -> str:
+    """Under which the docks are remembered: from right to left they lie the other way round."""
+    return "mirrored_layout" if language().right_to_left else "layout"

@@ -9,11 +9,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QWidget
 
 from rvsim.gui.page_stack import Page, PageStack
-from rvsim.language import tr
+from rvsim.language import language, tr
 
 
 class PanelDocks:
-    """Docks at the left and at the right, those at the right behind each other.
+    """Docks at the left and at the right, those at the right behind each other; mirrored for who reads from the right.
 
     Args:
         window: where they are put.
@@ -27,9 +27,12 @@ class PanelDocks:
         self._window = window
         options = QMainWindow.DockOption
         window.setDockOptions(options.AnimatedDocks | options.AllowTabbedDocks | options.AllowNestedDocks)
-        window.setTabPosition(Qt.DockWidgetArea.RightDockWidgetArea, QTabWidget.TabPosition.North)
-        self.left = self._add(*left, Qt.DockWidgetArea.LeftDockWidgetArea)
-        self.right = [self._add(*entry, Qt.DockWidgetArea.RightDockWidgetArea) for entry in right]
+        first, second = Qt.DockWidgetArea.LeftDockWidgetArea, Qt.DockWidgetArea.RightDockWidgetArea
+        if language().right_to_left:  # Qt mirrors what is in a dock, not where docks are
+            first, second = second, first
+        window.setTabPosition(second, QTabWidget.TabPosition.North)
+        self.left = self._add(*left, first)
+        self.right = [self._add(*entry, second) for entry in right]
         for dock in self.right[1:]:
             window.tabifyDockWidget(self.right[0], dock)
         for dock in self.right:
