@@ -326,7 +326,7 @@ class Commands(QObject):
         self._tell(tr("Keyboard shortcuts"), f"<table>{rows}</table><p>{boxes} {scene}</p>")
 
     def show_help(self, page: str = "") -> None:
-        """A page of the help; "" for that of the panel in which the focus is."""
+        """A page of the help; "" for that of the panel that the reader attends to."""
         from rvsim.gui.help.show import show_help
 
         show_help(self._window, page)

@@ -19,6 +19,7 @@ from rvsim.gui.device_words import phase_level, phase_words
 from rvsim.gui.document import Document
 from rvsim.gui.emergency_stop import EmergencyStop
 from rvsim.gui.gizmo_drag import GizmoDrag
+from rvsim.gui.help.attention import Attention
 from rvsim.gui.languages import language_menu
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.page_stack import Page, PageStack
@@ -101,6 +102,7 @@ class MainWindow(QMainWindow):
         self.commands = Commands(self)
         self._make_center()
         self._make_docks()
+        self.attention = Attention(self)
         self._make_toolbar()
         self._make_status_bar(choice)
         self._connect()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
 
@@ -25,13 +25,20 @@ class Page(NamedTuple):
 
 
 class PageStack(QWidget):
-    """A page that has a method `set_seen(bool)` is told when it comes to the front and when it goes."""
+    """A page that has a method `set_seen(bool)` is told when it comes to the front and when it goes.
+
+    Signals:
+        fronted(self): the panel, or another page of it, can be seen now.
+    """
+
+    fronted = Signal(object)
 
     def __init__(self, object_name: str, pages: Sequence[Page]) -> None:
         super().__init__()
         self.setObjectName(object_name)
         self._pages = tuple(pages)
         self._seen = False
+        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)  # a click between the controls leaves what had the focus
         self.stack = QStackedWidget()
         self._buttons = QButtonGroup(self)
         self._buttons.setExclusive(True)
@@ -110,6 +117,8 @@ class PageStack(QWidget):
         for page in sorted(self._pages, key=lambda page: page is self.current):
             if hasattr(page.widget, "set_seen"):
                 page.widget.set_seen(self._seen and page is self.current)
+        if self._seen:
+            self.fronted.emit(self)
 
 
 class _PageButton(QToolButton):

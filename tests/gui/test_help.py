@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from urllib.parse import urlsplit
 
 import pytest
-from PySide6.QtCore import QUrl
+from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QAction, QTextBlock
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QGroupBox,
     QLabel,
     QMenu,
+    QTabBar,
     QTabWidget,
     QWidget,
 )
@@ -197,6 +198,29 @@ def test_f1_explains_what_has_the_focus(window: MainWindow) -> None:
     assert help_page_of(None) == INDEX
     window.actions_by_name["help"].trigger()
     assert window.findChild(HelpWindow).isVisible()
+
+
+def test_f1_explains_the_page_that_was_brought_to_the_front_or_clicked_in(qtbot: QtBot, window: MainWindow) -> None:
+    def explained() -> str:
+        return help_page_of(window.attention.widget)
+
+    left = Qt.MouseButton.LeftButton
+    tabs = next(bar for bar in window.findChildren(QTabBar) if bar.count() == len(window.docks.right))
+    for number, dock in enumerate(window.docks.right):
+        window.scene_view.setFocus()
+        qtbot.mouseClick(tabs, left, pos=tabs.tabRect(number).center())
+        assert explained() == page_of_panel(window.docks.front_page)
+        for page in dock.widget().pages:
+            qtbot.mouseClick(dock.findChild(QWidget, f"{page.name}_page_button"), left)
+            assert explained() == page_of_panel(page.name)
+        window.scene_view.setFocus()
+        assert explained() == "scene"
+    qtbot.mouseClick(window.docks.front.widget().current.widget, left)
+    assert explained() == page_of_panel(window.docks.front_page)
+    window.joints.robots.setFocus()
+    assert explained() == "arm"
+    window.docks.left.hide()
+    assert explained() == page_of_panel(window.docks.front_page)
 
 
 def test_back_and_forward_remember_the_way(window: MainWindow) -> None:

@@ -1,10 +1,8 @@
-"""Opens the help window: on a page, or on that of the panel in which the focus is."""
+"""Opens the help window: on a page, or on that of the panel that the reader attends to."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
-
-from PySide6.QtWidgets import QApplication
 
 from rvsim.gui.help.context import help_page_of
 from rvsim.gui.help.window import HelpWindow
@@ -14,8 +12,8 @@ if TYPE_CHECKING:
 
 
 def show_help(window: MainWindow, page: str = "") -> HelpWindow:
-    """Show a page; "" for that of what has the focus. There is one help window, and it stays."""
-    name = page or help_page_of(QApplication.focusWidget())
+    """Show a page; "" for that of what the reader attends to. There is one help window, and it stays."""
+    name = page or help_page_of(window.attention.widget)
     shown = window.findChild(HelpWindow)
     if not isinstance(shown, HelpWindow):
         shown = HelpWindow(window, name)
