@@ -121,6 +121,15 @@ def again(text: str) -> str:
     return _said(text.template, text.many, text.number, values)
 
 
+def in_english(text: str) -> str:
+    """A text of `tr` or `trn` as the code has it, with the texts in it: for files that machines read."""
+    if not isinstance(text, Text):
+        return text
+    values = {name: in_english(value) if isinstance(value, str) else value for name, value in text.values.items()}
+    template = text.many if text.many and text.number != 1 else text.template
+    return template.format_map(values) if values else template
+
+
 def _said(text: str, many: str, number: int, values: Mapping[str, object]) -> Text:
     spoken, (forms, kind_of_number) = _spoken
     found = forms.get(text)

@@ -9,7 +9,7 @@ import numpy as np
 from rvsim.kinematics.clearance import clearance
 from rvsim.lab.findings import length_words
 from rvsim.lab.sentences import Units, joint_amount
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 from rvsim.motion import joint_move
 from rvsim.playback.player import Playable
 from rvsim.robot import Robot
@@ -18,6 +18,15 @@ from rvsim.robot.arrays import FloatArray
 _MOMENTS = 401
 _ROUNDING = 1e-9
 _FULL = 1.02  # of a joint's speed, which is measured between moments
+# What touches the table, and what the arm itself: on the motion, and before it.
+_DURING = (
+    tr_later("At {seconds:.2f} s the arm would touch the table, {depth} deep."),
+    tr_later("At {seconds:.2f} s the arm would touch itself, {depth} deep."),
+)
+_BEFORE = (
+    tr_later("On the way to its start: at {seconds:.2f} s the arm would touch the table, {depth} deep."),
+    tr_later("On the way to its start: at {seconds:.2f} s the arm would touch itself, {depth} deep."),
+)
 
 
 def objections(
@@ -32,12 +41,12 @@ def objections(
     times = np.linspace(0.0, motion.duration, _MOMENTS)
     q = np.asarray(motion.q(times), dtype=np.float64)
     if q.shape != (_MOMENTS, robot.dof):
-        return (tr("It is a motion of {shape} joints, and the arm has {dof}.", shape=q.shape[-1], dof=robot.dof),)
+        return (tr("It is a motion of {joints} joints, and the arm has {dof}.", joints=q.shape[-1], dof=robot.dof),)
     return (
         *_on_the_way(robot, here, q[0], table, units),
         *_limits(robot, times, q, units),
         *_speeds(robot, times, q),
-        *_clearances(robot, times, q, table, units),
+        *_clearances(robot, times, q, table, units, _DURING),
     )
 
 
@@ -46,7 +55,7 @@ def what_is_touched(robot: Robot, q: FloatArray, *, table: float | None = 0.0) -
     clear = clearance(robot, q, table=0.0 if table is None else table)
     if table is not None and clear.table < 0.0:
         return tr("the table")
-    return "itself" if clear.own < 0.0 else ""
+    return tr("itself") if clear.own < 0.0 else ""
 
 
 def _on_the_way(
@@ -57,8 +66,7 @@ def _on_the_way(
         return
     move = joint_move(robot, here, start)
     times = np.linspace(0.0, move.duration, _MOMENTS)
-    for sentence in _clearances(robot, times, move.q(times), table, units):
-        yield tr("On the way to its start: {lower}{sentence}", lower=sentence[0].lower(), sentence=sentence[1:])
+    yield from _clearances(robot, times, move.q(times), table, units, _BEFORE)
 
 
 def _limits(robot: Robot, times: FloatArray, q: FloatArray, units: Units) -> Iterator[str]:
@@ -71,9 +79,9 @@ def _limits(robot: Robot, times: FloatArray, q: FloatArray, units: Units) -> Ite
             name = robot.joint_names[index]
             needs, ends = (joint_amount(robot, name, angle, units) for angle in (value, limit))
             yield tr(
-                "At {times:.2f} s {name} would be at {needs}; arm and servos stop at {ends}.",
-                times=times[worst],
-                name=name,
+                "At {seconds:.2f} s {joint} would be at {needs}; arm and servos stop at {ends}.",
+                seconds=times[worst],
+                joint=tr(name),
                 needs=needs,
                 ends=ends,
             )
@@ -87,21 +95,21 @@ def _speeds(robot: Robot, times: FloatArray, q: FloatArray) -> Iterator[str]:
         share = float(rates[:, index].max()) / joint.max_speed.value
         if share > _FULL:
             yield tr(
-                "{name} would turn at {share:.0%} of its top speed: give the motion more time.",
-                name=joint.name,
+                "{joint} would turn at {share:.0%} of its top speed: give the motion more time.",
+                joint=tr(joint.name),
                 share=share,
             )
 
 
-def _clearances(robot: Robot, times: FloatArray, q: FloatArray, table: float | None, units: Units) -> Iterator[str]:
+def _clearances(
+    robot: Robot, times: FloatArray, q: FloatArray, table: float | None, units: Units, sentences: tuple[str, str]
+) -> Iterator[str]:
+    """The sentences for the table and for the arm itself, in their order."""
     clear = clearance(robot, q, table=0.0 if table is None else table)
-    wanted = ((tr("the table"), clear.table if table is not None else None), ("itself", clear.own))
-    for what, found in wanted:
+    for sentence, found in zip(sentences, (clear.table if table is not None else None, clear.own), strict=True):
         if found is None or not len(found):
             continue
         worst = int(np.argmin(found))
         if found[worst] < 0.0:
             depth = length_words(robot, -float(found[worst]), units)
-            yield tr(
-                "At {times:.2f} s the arm would touch {what}, {depth} deep.", times=times[worst], what=what, depth=depth
-            )
+            yield tr(sentence, seconds=times[worst], depth=depth)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from rvsim.lab.sentences import Units, joint_amount, length_number, stretch_reason
-from rvsim.language import tr, tr_later
+from rvsim.lab.sentences import Units, joint_amount, joint_words, length_number, stretch_reason
+from rvsim.language import left_to_right, tr, tr_later, trn
 from rvsim.motion.honesty import Finding, FindingKind, Report, Severity
 from rvsim.robot import Robot
 
@@ -46,11 +46,7 @@ def summary_sentence(report: Report) -> str:
         return tr("Nothing speaks against running it.")
     if not worst:
         return tr("It can be run; mind the warnings.")
-    return (
-        tr("Not as it is: one thing is wrong.")
-        if worst == 1
-        else tr("Not as it is: {worst} things are wrong.", worst=worst)
-    )
+    return trn("Not as it is: one thing is wrong.", "Not as it is: {n} things are wrong.", worst)
 
 
 def where_words(finding: Finding) -> str:
@@ -59,72 +55,86 @@ def where_words(finding: Finding) -> str:
         return tr("on the way to the path")
     last = finding.index if finding.last is None else finding.last
     if last == finding.index:
-        return tr("at point {last}", last=last + 1)
-    return tr("points {index}\u2013{last}", index=finding.index + 1, last=last + 1)
+        return tr("at point {number}", number=last + 1)
+    return tr("points {first}\u2013{last}", first=finding.index + 1, last=last + 1)
 
 
 def link_name(robot: Robot, link: int) -> str:
     """ "the base", "link 3 (behind the elbow)"."""
     if link == 0:
         return tr("the base")
-    name = robot.joint_names[link - 1]
-    return tr(
-        "link {link} (behind {value}{name})",
-        link=link,
-        value="the " if name.replace(" ", "").isalpha() else "",
-        name=name,
-    )
+    return tr("link {number} (behind {joint})", number=link, joint=joint_words(robot.joint_names[link - 1]))
 
 
 def _reach(report: Report, finding: Finding, _units: Units) -> str:
     tracking = report.tracking
-    count = tr(
-        "{reached_count} of {samples} points reached", reached_count=tracking.reached_count, samples=tracking.samples
+    if tracking.complete:
+        return tr("All: {reached} of {all} points reached.", reached=tracking.reached_count, all=tracking.samples)
+    return tr(
+        "{share:.0f} %: {reached} of {all} points reached.",
+        share=100.0 * finding.value,
+        reached=tracking.reached_count,
+        all=tracking.samples,
     )
-    return f"{'All' if tracking.complete else f'{100.0 * finding.value:.0f} %'}: {count}."
 
 
 def _missed(report: Report, finding: Finding, units: Units) -> str:
-    where = where_words(finding).removeprefix("at ")
-    return f"{where[0].upper()}{where[1:]}: {stretch_reason(report.robot, list(finding.points), units)}."
+    why = stretch_reason(report.robot, list(finding.points), units)
+    if finding.index is None:
+        return tr("On the way to the path: {why}.", why=why)
+    last = finding.index if finding.last is None else finding.last
+    if last == finding.index:
+        return tr("Point {number}: {why}.", number=last + 1, why=why)
+    return tr("Points {first}\u2013{last}: {why}.", first=finding.index + 1, last=last + 1, why=why)
 
 
 def _jump(_report: Report, finding: Finding, _units: Units) -> str:
     assert finding.index is not None
-    lifted = tr(" with the pen lifted") if finding.severity == "good" else tr("; the tool leaves the path there")
+    before, after = finding.index + 1, finding.index + 2
+    if finding.severity == "good":
+        return tr(
+            "From point {before} to {after} the arm changes its branch with the pen lifted.", before=before, after=after
+        )
     return tr(
-        "From point {index} to {index2} the arm changes its branch{lifted}.",
-        index=finding.index + 1,
-        index2=finding.index + 2,
-        lifted=lifted,
+        "From point {before} to {after} the arm changes its branch; the tool leaves the path there.",
+        before=before,
+        after=after,
     )
 
 
 def _rate(report: Report, finding: Finding, units: Units) -> str:
     assert finding.joint is not None
-    joint = f"{report.robot.joint_names[finding.joint]} {where_words(finding)}"
     value, limit = (_rate_text(report.robot, finding, value, units) for value in (finding.value, finding.limit))
-    source = "assumed " if finding.assumed else ""
-    share = 100.0 * finding.value / finding.limit
+    text = (
+        tr_later("At most {share:.0f} %: {joint} {where}, {value} of the assumed {limit}.")
+        if finding.assumed
+        else tr_later("At most {share:.0f} %: {joint} {where}, {value} of the {limit}.")
+    )
     return tr(
-        "At most {share:.0f} %: {joint}, {value} of the {source}{limit}.",
-        share=share,
-        joint=joint,
+        text,
+        share=100.0 * finding.value / finding.limit,
+        joint=tr(report.robot.joint_names[finding.joint]),
+        where=where_words(finding),
         value=value,
-        source=source,
         limit=limit,
     )
 
 
 def _pace(report: Report, finding: Finding, _units: Units) -> str:
     assert finding.joint is not None
-    joint = f"{report.robot.joint_names[finding.joint]} {where_words(finding)}"
-    times = tr("{value:.2f} s instead of the {limit:.2f} s asked for", value=finding.value, limit=finding.limit)
-    if finding.severity == "good":
-        return tr("Slowed down where a joint needs it, most of all {joint}: {times}.", joint=joint, times=times)
-    return tr(
-        "{capital} cannot go so fast, so all of it is slowed down: {times}.", capital=_capital(joint), times=times
+    text = (
+        tr_later(
+            "Slowed down where a joint needs it, most of all {joint} {where}: {seconds:.2f} s instead of the "
+            "{asked:.2f} s asked for."
+        )
+        if finding.severity == "good"
+        else tr_later(
+            "{joint} {where} cannot go so fast, so all of it is slowed down: {seconds:.2f} s instead of the "
+            "{asked:.2f} s asked for."
+        )
     )
+    joint = tr(report.robot.joint_names[finding.joint])
+    return _capital(tr(text, joint=joint, where=where_words(finding), seconds=finding.value, asked=finding.limit))
 
 
 def _rate_text(robot: Robot, finding: Finding, value: float, units: Units) -> str:
@@ -134,15 +144,29 @@ def _rate_text(robot: Robot, finding: Finding, value: float, units: Units) -> st
 
 
 def _singular(_report: Report, finding: Finding, _units: Units) -> str:
-    numbers = tr(
-        "σ min is at least {number}, {number2} of σ max, {where}",
-        number=_number(finding.value),
-        number2=_number(finding.limit),
+    return tr(
+        _CLOSENESS[bool(finding.family)][finding.severity],
+        least=_number(finding.value),
+        share=_number(finding.limit),
         where=where_words(finding),
+        family=tr(finding.family),
     )
-    family = tr(": the {family} singularity", family=finding.family) if finding.family else ""
-    close = {"good": "", "warning": "; close", "bad": tr("; as good as singular")}[finding.severity]
-    return f"{numbers}{close}{family}."
+
+
+_CLOSENESS: dict[bool, dict[Severity, str]] = {
+    False: {
+        "good": tr_later("σ min is at least {least}, {share} of σ max, {where}."),
+        "warning": tr_later("σ min is at least {least}, {share} of σ max, {where}; close."),
+        "bad": tr_later("σ min is at least {least}, {share} of σ max, {where}; as good as singular."),
+    },
+    True: {
+        "good": tr_later("σ min is at least {least}, {share} of σ max, {where}: the {family} singularity."),
+        "warning": tr_later("σ min is at least {least}, {share} of σ max, {where}; close: the {family} singularity."),
+        "bad": tr_later(
+            "σ min is at least {least}, {share} of σ max, {where}; as good as singular: the {family} singularity."
+        ),
+    },
+}
 
 
 def _number(value: float) -> str:
@@ -160,15 +184,17 @@ _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 def _table(report: Report, finding: Finding, units: Units) -> str:
     link = link_name(report.robot, finding.links[0])
     if finding.value < 0.0:
-        return tr(
-            "{capital} is {length} below it {where}.",
-            capital=_capital(link),
-            length=length_words(report.robot, -finding.value, units),
-            where=where_words(finding),
+        return _capital(
+            tr(
+                "{link} is {depth} below it {where}.",
+                link=link,
+                depth=length_words(report.robot, -finding.value, units),
+                where=where_words(finding),
+            )
         )
     return tr(
-        "At least {length} above it: {link}, {where}.",
-        length=length_words(report.robot, finding.value, units),
+        "At least {height} above it: {link}, {where}.",
+        height=length_words(report.robot, finding.value, units),
         link=link,
         where=where_words(finding),
     )
@@ -177,7 +203,7 @@ def _table(report: Report, finding: Finding, units: Units) -> str:
 def _own(report: Report, finding: Finding, units: Units) -> str:
     one, other = (link_name(report.robot, link) for link in finding.links)
     if finding.value < 0.0:
-        return tr("{capital} meets {other} {where}.", capital=_capital(one), other=other, where=where_words(finding))
+        return _capital(tr("{link} meets {other} {where}.", link=one, other=other, where=where_words(finding)))
     distance = length_words(report.robot, finding.value, units)
     return tr(
         "At least {distance} between {one} and {other}, {where}.",
@@ -191,8 +217,8 @@ def _own(report: Report, finding: Finding, units: Units) -> str:
 def length_words(robot: Robot, length: float, units: Units) -> str:
     """A length [m] for a sentence, not finer than it helps."""
     value, unit = length_number(robot, length, units)
-    return f"{value:.0f} {unit}" if unit == "mm" and value >= 10.0 else f"{value:.3g} {unit}"
+    return f"{value:.0f} {unit}" if unit == "mm" and value >= 10.0 else f"{left_to_right(f'{value:.3g}')} {unit}"
 
 
-def _capital(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}"
+def _capital(sentence: str) -> str:
+    return f"{sentence[0].upper()}{sentence[1:]}"

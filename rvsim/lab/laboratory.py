@@ -24,7 +24,7 @@ from rvsim.kinematics.numeric import (
 )
 from rvsim.lab.sentences import MINUS, Units, joint_amount, length_number
 from rvsim.lab.source_002 import Comparison
-from rvsim.language import tr, tr_later
+from rvsim.language import listed, tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import degrees_from_radians
@@ -35,13 +35,12 @@ TITLES: dict[Solver, str] = {
     "lm": tr_later("Levenberg–Marquardt"),
     "bfgs": tr_later("BFGS gradient projection"),
 }
-SHORT_TITLES: dict[Solver, str] = {"newton": tr_later("Newton"), "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
+SHORT_TITLES: dict[Solver, str] = {"newton": "Newton", "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
 EXACT = Preset(
     tr_later("Exact, one try"),
     tr_later(
         "Until a millionth of a metre and of a radian, within the limits, and without random restarts: what each "
-        "solver "
-        "makes of this one start."
+        "solver makes of this one start."
     ),
     "lm",
     "pose",
@@ -78,8 +77,8 @@ class Outcome(NamedTuple):
 
     @property
     def title(self) -> str:
-        """The solver's name in full."""
-        return TITLES[self.solver]
+        """The solver's name in full, in the language that is spoken."""
+        return tr(TITLES[self.solver])
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,9 +144,15 @@ def target_of(robot: Robot, q: FloatArray) -> FloatArray:
 def verdict(trial: Trial, outcome: Outcome, units: Units = _UNITS) -> str:
     """What one solver did, and why it ended."""
     result = outcome.result
-    end = tr("ends after {count}", count=_count(result.iterations, "iteration"))
-    left = "" if result.converged else tr(" {missing} left.", missing=_missing(trial, result, units))
-    return f"{outcome.title} {end}. {result.reason}{left}{_curve_note(result)}{_limit_note(trial, result, units)}"
+    sentences = (
+        trn("{solver} ends after {n} iteration.", "{solver} ends after {n} iterations.", result.iterations,
+            solver=outcome.title),
+        result.reason,
+        "" if result.converged else tr("{missing} left.", missing=_missing(trial, result, units)),
+        *_curve_notes(result),
+        _limit_note(trial, result, units),
+    )  # fmt: skip
+    return " ".join(sentence for sentence in sentences if sentence)
 
 
 def contest_sentence(contest: Contest, units: Units = _UNITS) -> str:
@@ -157,55 +162,47 @@ def contest_sentence(contest: Contest, units: Units = _UNITS) -> str:
         nearest = contest.best
         missing = _missing(contest.trial, nearest.result, units)
         return tr(
-            "None of the {count} reaches the target. Nearest: {title}, {missing} left.",
+            "None of the {count} reaches the target. Nearest: {solver}, {missing} left.",
             count=count,
-            title=nearest.title,
+            solver=nearest.title,
             missing=missing,
         )
     if len(done) == 1:
-        return tr(
-            "Only {title} reaches the target, in {count}.",
-            title=done[0].title,
-            count=_count(done[0].result.iterations, "iteration"),
+        return trn(
+            "Only {solver} reaches the target, in {n} iteration.",
+            "Only {solver} reaches the target, in {n} iterations.",
+            done[0].result.iterations,
+            solver=done[0].title,
         )
     who = (
-        tr("All {count} reach", count=count)
+        tr("All {count} reach the target.", count=count)
         if len(done) == count
-        else tr("{count} of {count2} reach", count=len(done), count2=count)
+        else tr("{reached} of {count} reach the target.", reached=len(done), count=count)
     )
-    return tr(
-        "{who} the target. {fewest_clause} {solutions_clause}",
-        who=who,
-        fewest_clause=_fewest_clause(contest),
-        solutions_clause=_solutions_clause(contest),
-    )
+    return f"{who} {_fewest_sentence(contest)} {_solutions_sentence(contest)}"
 
 
-def _fewest_clause(contest: Contest) -> str:
+def _fewest_sentence(contest: Contest) -> str:
     least = contest.best.result.iterations
     first = [outcome for outcome in contest.converged if outcome.result.iterations == least]
-    who = (
-        tr("{title} needs", title=contest.best.title)
-        if len(first) == 1
-        else tr("{together} need", together=_together(first))
-    )
-    return tr("{who} the fewest iterations ({least}).", who=who, least=least)
+    if len(first) == 1:
+        return tr("{solver} needs the fewest iterations ({least}).", solver=contest.best.title, least=least)
+    return tr("{solvers} need the fewest iterations ({least}).", solvers=_together(first), least=least)
 
 
-def _solutions_clause(contest: Contest) -> str:
+def _solutions_sentence(contest: Contest) -> str:
     groups = same_solutions(contest)
     if len(groups) == 1:
         return tr("They end in the same pose of the arm.")
     return tr(
-        "They end in {count} different poses of the arm: {map}.",
+        "They end in {count} different poses of the arm: {groups}.",
         count=len(groups),
-        map="; ".join(map(_together, groups)),
+        groups=tr("; ").join(map(_together, groups)),
     )
 
 
 def _together(group: Sequence[Outcome]) -> str:
-    *most, last = (SHORT_TITLES[outcome.solver] for outcome in group)
-    return tr("{most} and {last}", most=", ".join(most), last=last) if most else last
+    return listed([SHORT_TITLES[outcome.solver] for outcome in group])
 
 
 def same_solutions(contest: Contest) -> tuple[tuple[Outcome, ...], ...]:
@@ -230,11 +227,8 @@ def _missing(trial: Trial, result: NumericResult, units: Units) -> str:
     if trial.task != "pose":
         return text
     turn = result.rotation_error
-    return (
-        tr("{text} and {short}°", text=text, short=_short(degrees_from_radians(turn)))
-        if units.angle == "deg"
-        else tr("{text} and {short} rad", text=text, short=_short(turn))
-    )
+    angle = f"{_short(degrees_from_radians(turn))}°" if units.angle == "deg" else f"{_short(turn)} rad"
+    return tr("{length} and {angle}", length=text, angle=angle)
 
 
 def _short(number: float) -> str:
@@ -243,12 +237,15 @@ def _short(number: float) -> str:
     return text.replace("-", MINUS)
 
 
-def _curve_note(result: NumericResult) -> str:
+def _curve_notes(result: NumericResult) -> tuple[str, ...]:
     if not result.restarts:
-        return ""
-    which = "last" if result.converged else "best"
-    needed = tr(" It took {count}.", count=_count(result.restarts, tr("random restart"))) if result.converged else ""
-    return tr("{needed} The curve shows the {which} try alone.", needed=needed, which=which)
+        return ()
+    if not result.converged:
+        return (tr("The curve shows the best try alone."),)
+    return (
+        trn("It took {n} random restart.", "It took {n} random restarts.", result.restarts),
+        tr("The curve shows the last try alone."),
+    )
 
 
 def _limit_note(trial: Trial, result: NumericResult, units: Units) -> str:
@@ -258,9 +255,9 @@ def _limit_note(trial: Trial, result: NumericResult, units: Units) -> str:
     first = violations[0]
     name = trial.robot.joint_names[first.joint]
     return tr(
-        " Outside the limits: {name} at {joint_amount}.",
-        name=name,
-        joint_amount=joint_amount(trial.robot, name, float(result.q[first.joint]), units),
+        "Outside the limits: {joint} at {value}.",
+        joint=tr(name),
+        value=joint_amount(trial.robot, name, float(result.q[first.joint]), units),
     )
 
 
@@ -276,15 +273,15 @@ def source_002_sentence(comparison: Comparison, units: Units = _UNITS) -> str:
     believed = f"{factor * printed.believed_deviations.max():.{more + 1}f}"
     return (
         tr(
-            "As printed, the real UR5e is {off} {unit} RMS away from the ellipse ({off2} to {off3} {unit}), "
+            "As printed, the real UR5e is {rms} {unit} RMS away from the ellipse ({least} to {most} {unit}), "
             "while the program believes itself within {believed} {unit}. "
-            "Corrected: {factor:.0e} {unit} RMS, which is rounding alone.",
-            off=off[0],
+            "Corrected: {corrected:.0e} {unit} RMS, which is rounding alone.",
+            rms=off[0],
             unit=unit,
-            off2=off[1],
-            off3=off[2],
+            least=off[1],
+            most=off[2],
             believed=believed,
-            factor=factor * corrected.rms,
+            corrected=factor * corrected.rms,
         )
     ).replace("e-", f"e{MINUS}")
 
@@ -297,7 +294,3 @@ SOURCE_002_READING = tr_later(
     "point takes a long way, and a ten thousandth of a degree elsewhere ends some hundred millimetres off as well, at "
     "other angles."
 )
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'s' * (number != 1)}"

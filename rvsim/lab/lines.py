@@ -13,7 +13,7 @@ from rvsim.errors import NoClosedFormError
 from rvsim.experiment import Experiment, LineTask, PathOrientation, TrajectoryTask
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.orientations import oriented
-from rvsim.language import tr, tr_later
+from rvsim.language import tr_later
 from rvsim.motion import Path, line_path, track
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -89,10 +89,10 @@ def _preset(row: _Row) -> LinePreset:
 def _found_line(robot: Robot) -> LinePreset:
     """The longest of a few lines about the tool's place at home, or in mid-range; else one that stays at home."""
     home, middle = (forward_kinematics(robot, q)[:3, 3] for q in (robot.home, _mid_range(robot)))
-    at_home = LinePreset("own", tr("At its home"), home, home, 0.5, "keep")
+    at_home = LinePreset("own", tr_later("At its home"), home, home, 0.5, "keep")
     for length, place, direction, orientation in product(_HALF_LENGTHS, (home, middle), _DIRECTIONS, _ORIENTATIONS):
         half = length * robot.size * np.array(direction)
-        preset = LinePreset("own", tr("About its home"), place - half, place + half, 0.02, orientation)
+        preset = LinePreset("own", tr_later("About its home"), place - half, place + half, 0.02, orientation)
         if _can_draw(robot, preset):
             return preset
     return at_home

@@ -38,7 +38,7 @@ class NamedPath(NamedTuple):
     """An entry of the table.
 
     Args:
-        title: what people call it.
+        title: what people call it, in English, as are the others: `tr` says them.
         citation: where it comes from, and what is worth knowing.
         arms: the names of the arms it is meant for, () for any.
         orientation: what "source" stands for, in a word for the screen.
@@ -94,8 +94,7 @@ _TABLE = (
         tr_later("Letter as printed"),
         tr_later(
             "Source 000, Program 9: the spline through twelve points in decimetres, with the parameter as height. It "
-            "lies "
-            "up to 7 m away; nothing of it is in reach."
+            "lies up to 7 m away; nothing of it is in reach."
         ),
         _RVM1,
         _DOWN,
@@ -106,8 +105,7 @@ _TABLE = (
         tr_later("Letter divided by 40"),
         tr_later(
             "Source 000, Program 16: the same spline divided by 40. The source gives no height; at 300 mm 21 of 50 "
-            "points "
-            "are in reach."
+            "points are in reach."
         ),
         _RVM1,
         _DOWN,
@@ -118,8 +116,7 @@ _TABLE = (
         tr_later("Letter on a table"),
         tr_later(
             "Source 000's letter divided by 40 and moved to where the arm can draw all of it: x + 256 mm, y − 87 mm, "
-            "on a "
-            "table of 150 mm."
+            "on a table of 150 mm."
         ),
         _RVM1,
         _DOWN,
@@ -139,11 +136,10 @@ _TABLE = (
         tr_later("Ellipse as printed"),
         tr_later(
             "Source 002: 184 points on the mounting plane, with the printed orientation made orthogonal. 70 of them "
-            "are "
-            "too near to the base axis for that orientation."
+            "are too near to the base axis for that orientation."
         ),
         ("ur5e",),
-        "120° about z",
+        tr_later("120° about z"),
         _curve(drawings.ellipse, drawings.ELLIPSE_SAMPLES),
         _ellipse_rotations,
     ),
@@ -152,7 +148,7 @@ _TABLE = (
         tr_later("Ellipse moved"),
         tr_later("Source 002's ellipse moved by +300 mm along x and z, where all of it is in reach."),
         ("ur5e",),
-        "120° about z",
+        tr_later("120° about z"),
         _curve(drawings.ellipse_moved, drawings.ELLIPSE_SAMPLES),
         _ellipse_rotations,
     ),
@@ -161,7 +157,7 @@ _TABLE = (
         tr_later("Spiral"),
         tr_later("Source 003: straight up, then a spiral, 2001 points in the source's unit of length."),
         ("rrrp",),
-        "upright",
+        tr_later("upright"),
         _curve(drawings.spiral, drawings.SPIRAL_SAMPLES),
         _upright,
     ),
@@ -270,4 +266,4 @@ def _from_file(name: str, robot: Robot) -> Path:
     """A file's numbers are millimetres, but units for an arm whose lengths have no other."""
     path = read_path(name)
     points = path.points if robot.length_unit == "millimetre" else millimetres_from_metres(path.points)
-    return replace(path, points=points, title=FilePath(name).name, notes="Read from a file.")
+    return replace(path, points=points, title=FilePath(name).name, notes=tr_later("Read from a file."))

@@ -11,7 +11,7 @@ from pathlib import Path as FilePath
 from rvsim.errors import ExpressionError, PathFileError
 from rvsim.expressions import evaluate
 from rvsim.lab.table_file import RawRow, cells_of, counts, is_number, plain_name, read_text
-from rvsim.language import tr
+from rvsim.language import listed, tr
 from rvsim.motion import Path, through_points
 from rvsim.units import metres_from_millimetres
 
@@ -53,7 +53,7 @@ def points_mm_of(path: FilePath, text: str) -> list[tuple[float, ...]]:
 def _rows(path: FilePath, text: str) -> list[RawRow]:
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if counts(line)]
     if not lines:
-        raise PathFileError(path, tr("the file"), "nothing", tr("rows of x, y, z in millimetres"))
+        raise PathFileError(path, tr("the file"), tr("nothing"), tr("rows of x, y, z in millimetres"))
     delimiter = next((mark for mark in _DELIMITERS if mark in lines[0][1]), ",")
     return [RawRow(number, cells_of(line, delimiter)) for number, line in lines]
 
@@ -65,10 +65,8 @@ def _header(path: FilePath, row: RawRow) -> tuple[int, ...] | None:
     names = [plain_name(cell) for cell in row.cells]
     missing = [name for name in _COLUMNS if name not in names]
     if missing:
-        found = tr(
-            "a header without {missing} ({cells})", missing=" and ".join(missing), cells=", ".join(row.cells)[:60]
-        )
-        raise PathFileError(path, tr("row {number}", number=row.number), found, tr("columns x, y, z in millimetres"))
+        found = tr("a header without {missing} ({cells})", missing=listed(missing), cells=", ".join(row.cells)[:60])
+        raise PathFileError(path, tr("row {row}", row=row.number), found, tr("columns x, y, z in millimetres"))
     return tuple(names.index(name) for name in _COLUMNS)
 
 
@@ -77,9 +75,9 @@ def _point(path: FilePath, row: RawRow, columns: Sequence[int]) -> tuple[float, 
 
 
 def _value(path: FilePath, row: RawRow, column: int, name: str) -> float:
-    where = tr("row {number}, column {column} ({name})", number=row.number, column=column + 1, name=name)
+    where = tr("row {row}, column {column} ({name})", row=row.number, column=column + 1, name=name)
     if column >= len(row.cells):
-        raise PathFileError(path, where, "nothing", tr("a number in millimetres"))
+        raise PathFileError(path, where, tr("nothing"), tr("a number in millimetres"))
     try:
         return evaluate(row.cells[column])
     except ExpressionError:

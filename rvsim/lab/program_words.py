@@ -7,13 +7,23 @@ from functools import partial
 from typing import Any
 
 from rvsim.experiment.program import ArcMove, Gripper, JointMove, LineMove, Move, Wait
-from rvsim.lab.sentences import MINUS, Units, joint_amount, length_number, reasons
-from rvsim.language import tr, tr_later
+from rvsim.lab.sentences import MINUS, Units, first_reason, joint_amount, length_number
+from rvsim.language import left_to_right, tr, tr_later, trn
 from rvsim.motion.program import Plan, Problem, ProblemKind
 from rvsim.robot import Robot
 
-_TOOLS = {"keep": "", "turn": tr_later(", tool turned"), "free": tr_later(", tool free")}
 _DEFAULT = Units()
+# What is said of a line and of an arc, for each way in which the tool may turn.
+_LINES = {
+    "keep": tr_later("line to {place}, {percent}"),
+    "turn": tr_later("line to {place}, tool turned, {percent}"),
+    "free": tr_later("line to {place}, tool free, {percent}"),
+}
+_ARCS = {
+    "keep": tr_later("arc over {via} to {place}, {percent}"),
+    "turn": tr_later("arc over {via} to {place}, tool turned, {percent}"),
+    "free": tr_later("arc over {via} to {place}, tool free, {percent}"),
+}
 
 
 def move_words(move: Move, robot: Robot, units: Units = _DEFAULT) -> str:
@@ -26,29 +36,18 @@ def _joint(move: JointMove, robot: Robot, units: Units) -> str:
         return tr("joints to “{pose}”, {percent}", pose=move.pose, percent=_percent(move.speed))
     names = robot.joint_names
     if len(move.q) != len(names):
-        return tr("joints of an arm with {count} joints", count=len(move.q))
+        return trn("joints of an arm with {n} joint", "joints of an arm with {n} joints", len(move.q))
     values = (joint_amount(robot, name, value, units) for name, value in zip(names, move.q, strict=True))
     return tr("joints to ({values}), {percent}", values=", ".join(values), percent=_percent(move.speed))
 
 
 def _line(move: LineMove, robot: Robot, units: Units) -> str:
-    return tr(
-        "line to {place}{tools}, {percent}",
-        place=_place(move.to, robot, units),
-        tools=_TOOLS[move.tool],
-        percent=_percent(move.speed),
-    )
+    return tr(_LINES[move.tool], place=_place(move.to, robot, units), percent=_percent(move.speed))
 
 
 def _arc(move: ArcMove, robot: Robot, units: Units) -> str:
     via, to = (_place(place, robot, units) for place in (move.via, move.to))
-    return tr(
-        "arc over {via} to {to}{tools}, {percent}",
-        via=via,
-        to=to,
-        tools=_TOOLS[move.tool],
-        percent=_percent(move.speed),
-    )
+    return tr(_ARCS[move.tool], via=via, place=to, percent=_percent(move.speed))
 
 
 def _wait(move: Wait, _robot: Robot, _units: Units) -> str:
@@ -57,7 +56,7 @@ def _wait(move: Wait, _robot: Robot, _units: Units) -> str:
 
 def _gripper(move: Gripper, _robot: Robot, _units: Units) -> str:
     return {0.0: tr("close the gripper"), 1.0: tr("open the gripper")}.get(
-        move.opening, f"gripper {_percent(move.opening)} open"
+        move.opening, tr("gripper {percent} open", percent=_percent(move.opening))
     )
 
 
@@ -82,29 +81,30 @@ def _no_pose(_robot: Robot, move: Move, _problem: Problem, _units: Units) -> str
 
 def _outside(robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
     value, limit = (joint_amount(robot, problem.joint, number, units) for number in (problem.value, problem.limit))
-    return tr("The {joint} would go to {value} and stops at {limit}.", joint=problem.joint, value=value, limit=limit)
+    joint = tr(problem.joint)
+    return tr("The {joint} would go to {value} and stops at {limit}.", joint=joint, value=value, limit=limit)
 
 
 def _missed(_robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
     assert problem.tracking is not None
     tracking = problem.tracking
     share = tracking.unreached[0].index / tracking.samples
-    why = reasons(tracking, units)[0].split(": ", 1)[-1]
-    reached = tr("from the very start") if share == 0.0 else tr("after {percent} of the way", percent=_percent(share))
-    return tr("{upper}{reached} the arm cannot follow: {why}.", upper=reached[0].upper(), reached=reached[1:], why=why)
+    why = first_reason(tracking, units)
+    if share == 0.0:
+        return tr("From the very start the arm cannot follow: {why}.", why=why)
+    return tr("After {percent} of the way the arm cannot follow: {why}.", percent=_percent(share), why=why)
 
 
 def _beside(robot: Robot, _move: Move, problem: Problem, units: Units) -> str:
     number, unit = length_number(robot, problem.value, units)
     return tr(
-        "The tool would leave its way by {number:.2g} {unit}: it passes too near to a singular pose.",
-        number=number,
-        unit=unit,
+        "The tool would leave its way by {distance}: it passes too near to a singular pose.",
+        distance=f"{number:.2g} {unit}",
     )
 
 
 def _said(text: str, *_: object) -> str:
-    return text
+    return tr(text)
 
 
 _PROBLEMS: dict[ProblemKind, Callable[[Robot, Move, Problem, Units], str]] = {
@@ -128,8 +128,12 @@ def plan_sentence(plan: Plan, units: Units = _DEFAULT) -> str:
     if not count:
         return tr("No move yet: add the present pose, a line to where the tool is, or a wait.")
     if plan.problem is None:
-        every = tr("The one move") if count == 1 else tr("All {count} moves", count=count)
-        return tr("{every} can be done, in {seconds:.1f} s.", every=every, seconds=seconds)
+        return trn(
+            "The one move can be done, in {seconds:.1f} s.",
+            "All {n} moves can be done, in {seconds:.1f} s.",
+            count,
+            seconds=seconds,
+        )
     number = len(plan.steps)
     why = problem_sentence(plan.robot, plan.moves[number], plan.problem, units)
     return tr("Move {number} of {count} cannot be done. {why}", number=number + 1, count=count, why=why)
@@ -140,7 +144,8 @@ def _place(place: Iterable[float], robot: Robot, units: Units) -> str:
     unit = numbers[0][1]
     decimals = 1 if unit == "mm" else 3
     texts = (f"{round(number, decimals) + 0.0:.{decimals}f}".replace("-", MINUS) for number, _ in numbers)
-    return f"({', '.join(texts)}) {unit}"
+    listing = ", ".join(texts)
+    return f"{left_to_right(f'({listing})')} {unit}"
 
 
 def _percent(share: float) -> str:

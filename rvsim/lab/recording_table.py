@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from rvsim.language import tr, tr_later
 from rvsim.playback.recording import Recording
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 _WORDS = {"desired": "wanted", "commanded": "sent", "true": "really"}
-_NO_MEASUREMENT = tr_later(" (no measurement: the pulses that the controller says it sends)")
+_NO_MEASUREMENT = " (no measurement: the pulses that the controller says it sends)"
 
 
 def recording_csv(robot: Robot, recording: Recording) -> str:
@@ -49,15 +48,7 @@ def _tool_columns(robot: Robot, recording: Recording) -> Iterator[tuple[str, Flo
         places = recording.tool_path(robot, name)
         shown = millimetres_from_metres(places) if is_metric else places
         for letter, column in zip("xyz", shown.T, strict=True):
-            yield (
-                tr(
-                    "{word} tool {letter} [{value}]",
-                    word=_word(recording, name),
-                    letter=letter,
-                    value="mm" if is_metric else "unit",
-                ),
-                column,
-            )
+            yield f"{_word(recording, name)} tool {letter} [{'mm' if is_metric else 'unit'}]", column
 
 
 def _word(recording: Recording, name: str) -> str:

@@ -15,7 +15,7 @@ from rvsim.kinematics import inverse_kinematics_batch
 from rvsim.lab.named_paths import line_of
 from rvsim.lab.sentences import Units, length_number
 from rvsim.lab.shape_paths import placed_task, placement_of, task_path
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr, tr_later, trn
 from rvsim.motion import Path, Tracking, Trajectory, track, trajectory_of
 from rvsim.motion.honesty import SEVERITIES, Report, check
 from rvsim.motion.placement import Place, largest_in_place, nearest_place
@@ -99,15 +99,23 @@ def _tried(kind: str, experiment: Experiment) -> Tracking | None:
 
 
 def _outcome(tracking: Tracking) -> str:
-    jumps = tr(", with {count} jumps", count=len(tracking.jumps)) if tracking.jumps else ""
-    if tracking.complete:
-        return tr("Tried: all {samples} points are reached{jumps}.", samples=tracking.samples, jumps=jumps)
-    return tr(
-        "Tried: {reached_count} of {samples} points are reached{jumps}.",
-        reached_count=tracking.reached_count,
-        samples=tracking.samples,
-        jumps=jumps,
+    return f"{_outcome_clause(tracking)}."
+
+
+def _outcome_clause(tracking: Tracking) -> str:
+    clause = (
+        trn("Tried: the one point is reached", "Tried: all {n} points are reached", tracking.samples)
+        if tracking.complete
+        else trn(
+            "Tried: {reached} of {n} point is reached",
+            "Tried: {reached} of {n} points are reached",
+            tracking.samples,
+            reached=tracking.reached_count,
+        )
     )
+    if not tracking.jumps:
+        return clause
+    return trn("{outcome}, with {n} jump", "{outcome}, with {n} jumps", len(tracking.jumps), outcome=clause)
 
 
 def _ignoring(kind: str, experiment: Experiment, report: Report) -> Offer | None:
@@ -122,7 +130,7 @@ def _ignoring(kind: str, experiment: Experiment, report: Report) -> Offer | None
         "Go beyond the joint limits, as programs of the sources did; a real arm cannot. {outcome}",
         outcome=_outcome(tried),
     )
-    return Offer(tr("ignore limits"), tr("Ignore limits"), tip, tried, beyond)
+    return Offer("ignore limits", tr("Ignore limits"), tip, tried, beyond)
 
 
 # --- the time ----------------------------------------------------------------------------------------------------
@@ -138,18 +146,18 @@ def _slower(experiment: Experiment, report: Report) -> Iterator[Offer | None]:
     if seconds < _WORTH * behind.value:
         tip = tr(
             "Only where a joint needs it, not as a whole: the path takes {seconds:.2f} s instead of "
-            "{value:.2f} s. Tried: no joint exceeds its speed or acceleration.",
+            "{now:.2f} s. Tried: no joint exceeds its speed or acceleration.",
             seconds=seconds,
-            value=behind.value,
+            now=behind.value,
         )
         yield Offer("ease", tr("Slow down only there: {seconds:.2f} s", seconds=seconds), tip, report.tracking, slower)
     enough = math.ceil(100.0 * behind.value) / 100.0
     tip = tr(
-        "Ask for the time that the joints need, instead of {limit:.2f} s. It moves as it does now.", limit=behind.limit
+        "Ask for the time that the joints need, instead of {asked:.2f} s. It moves as it does now.", asked=behind.limit
     )
     yield Offer(
         "longer",
-        tr("Take {enough:.2f} s", enough=enough),
+        tr("Take {seconds:.2f} s", seconds=enough),
         tip,
         report.tracking,
         replace(experiment, path_seconds=enough),
@@ -187,7 +195,7 @@ def _placed(kind: str, experiment: Experiment, report: Report, units: Units) -> 
     for scale in () if found else _SCALES_WHEN_MOVED:
         search = nearest_place(experiment.robot, path, near=experiment.q, ignore_limits=limits, scale=scale)
         for place in search:
-            offer = place and _placement_offer(tr("move and scale"), kind, experiment, path, place, units)
+            offer = place and _placement_offer("move and scale", kind, experiment, path, place, units)
             yield offer
             if offer:
                 return
@@ -201,18 +209,24 @@ def _placement_offer(
     tried = _tried(kind, moved)
     if tried is None or not tried.complete or tried.jumps:
         return None
-    shift = place.center - path.middle
-    parts = []
-    if name != "scale":
-        parts.append(tr("Move by {vector}", vector=_vector(experiment.robot, shift, units)))
-    if name != "move":
-        parts.append(tr("{value}cale to {scale:.0f} %", value="s" if parts else "S", scale=100.0 * place.scale))
-    what = {
-        "move": tr("The nearest place at which all of it is reached"),
-        "scale": tr("The largest of a few scales at which all of it is reached where it is"),
-        "move and scale": tr("The nearest place for it at that scale"),
-    }[name]
-    return Offer(name, ", ".join(parts), f"{what}. {_outcome(tried)}", tried, moved)
+    title, what = _PLACEMENTS[name]
+    vector = _vector(experiment.robot, place.center - path.middle, units)
+    said = tr(title, vector=vector, scale=100.0 * place.scale)
+    return Offer(name, said, f"{tr(what)} {_outcome(tried)}", tried, moved)
+
+
+# The title of the button, and what it does.
+_PLACEMENTS = {
+    "move": (tr_later("Move by {vector}"), tr_later("The nearest place at which all of it is reached.")),
+    "scale": (
+        tr_later("Scale to {scale:.0f} %"),
+        tr_later("The largest of a few scales at which all of it is reached where it is."),
+    ),
+    "move and scale": (
+        tr_later("Move by {vector}, scale to {scale:.0f} %"),
+        tr_later("The nearest place for it at that scale."),
+    ),
+}
 
 
 def _moved(kind: str, experiment: Experiment, path: Path, place: Place) -> Experiment:
@@ -233,7 +247,8 @@ def _vector(robot: Robot, shift: FloatArray, units: Units) -> str:
     numbers = [length_number(robot, float(value), units) for value in shift]
     decimals = {"mm": 0, "m": 3}.get(numbers[0][1], 2)
     texts = (f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", "\u2212") for value, _ in numbers)
-    return f"({', '.join(texts)}) {numbers[0][1]}"
+    listing = ", ".join(texts)
+    return f"{left_to_right(f'({listing})')} {numbers[0][1]}"
 
 
 # --- jumps -------------------------------------------------------------------------------------------------------
@@ -251,10 +266,9 @@ def _split(report: Report) -> Offer | None:
     up = path.pen_up
     if up is None or tried.reached_count < tracking.reached_count or not all(up[jump] for jump in tried.jumps):
         return None
-    times = "once" if len(jumps) == 1 else tr("{count} times", count=len(jumps))
-    return Offer("split", tr("Lift the pen {times}", times=times), tr("At each jump, and set it down behind it. "
-                                                                      "{outcome}", outcome=_outcome(tried)), tried,
-                 None)  # fmt: skip
+    title = trn("Lift the pen once", "Lift the pen {n} times", len(jumps))
+    tip = tr("At each jump, and set it down behind it. {outcome}", outcome=_outcome(tried))
+    return Offer("split", title, tip, tried, None)
 
 
 def lifted_at(tracking: Tracking, jumps: list[int]) -> Path:
@@ -310,16 +324,12 @@ def _rank(report: Report) -> tuple[int, int]:
 
 
 def _branch_tip(tried: Tracking, rank: tuple[int, int]) -> str:
-    left = (
-        tr("nothing is left to warn of")
-        if rank == (0, 0)
-        else tr("{sum} finding{value} left", sum=sum(rank), value="s" * (sum(rank) > 1))
-    )
-    return tr(
-        "Put the arm into another branch at the first point, and track from there. {outcome}; {left}.",
-        outcome=_outcome(tried)[:-1],
-        left=left,
-    )
+    what = tr("Put the arm into another branch at the first point, and track from there.")
+    outcome = _outcome_clause(tried)
+    if rank == (0, 0):
+        return f"{what} {tr('{outcome}; nothing is left to warn of.', outcome=outcome)}"
+    left = trn("{outcome}; {n} finding left.", "{outcome}; {n} findings left.", sum(rank), outcome=outcome)
+    return f"{what} {left}"
 
 
 def _starts(tracking: Tracking) -> FloatArray:

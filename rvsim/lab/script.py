@@ -6,12 +6,11 @@ from numpy.typing import ArrayLike
 
 from rvsim.errors import ShapeError
 from rvsim.lab.texts import matrix_numpy
-from rvsim.language import tr, tr_later
 from rvsim.motion import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
-_HEAD = tr_later('''\
+_HEAD = '''\
 """{title}: where the tool is for each pose of a motion, from the Denavit-Hartenberg table alone.
 
 Run it with Python and NumPy. Angles are radians, lengths {unit}.
@@ -37,15 +36,12 @@ Q = {q}
 
 # Where the tool should be, or None.
 WANTED = {wanted}
-''')
+'''
 _MOVES = {
-    "standard": (
-        tr_later("Denavit and Hartenberg"),
-        tr_later("turn(z, theta) @ shift(z, d) @ shift(x, a) @ turn(x, alpha)"),
-    ),
-    "modified": (tr_later("Craig"), tr_later("turn(x, alpha) @ shift(x, a) @ shift(z, d) @ turn(z, theta)")),
+    "standard": ("Denavit and Hartenberg", "turn(z, theta) @ shift(z, d) @ shift(x, a) @ turn(x, alpha)"),
+    "modified": ("Craig", "turn(x, alpha) @ shift(x, a) @ shift(z, d) @ turn(z, theta)"),
 }
-_BODY = tr_later('''
+_BODY = '''
 
 def turn(axis, angle):
     """Rotation about x (0) or z (2)."""
@@ -99,7 +95,7 @@ def main():
 
 if __name__ == "__main__":
     main()
-''')
+'''
 
 
 def motion_script(robot: Robot, times: ArrayLike, q: ArrayLike, wanted: ArrayLike | None = None) -> str:
@@ -115,12 +111,12 @@ def motion_script(robot: Robot, times: ArrayLike, q: ArrayLike, wanted: ArrayLik
     """
     poses = frozen_array("q", q, (-1, robot.dof))
     if not len(poses):
-        raise ShapeError("q", tr("(at least 1, {dof})", dof=robot.dof), poses.shape)
+        raise ShapeError("q", f"(at least 1, {robot.dof})", poses.shape)
     places = None if wanted is None else frozen_array("wanted", wanted, (len(poses), 3))
     author, moves = _MOVES[robot.convention]
     head = _HEAD.format(
         title=_plain(robot.title),
-        unit="metres" if robot.length_unit == "millimetre" else tr("the arm's own unit"),
+        unit="metres" if robot.length_unit == "millimetre" else "the arm's own unit",
         names=", ".join(map(_plain, robot.joint_names)),
         dh=matrix_numpy(robot.dh),
         revolute=robot.is_revolute.tolist(),

@@ -9,7 +9,7 @@ from typing import Literal
 
 from rvsim.kinematics import Failure
 from rvsim.kinematics.inverse.explain import DEGREES, METRES, MILLIMETRES, RADIANS, explain
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr, tr_later, trn
 from rvsim.motion import Tracking, Unreached
 from rvsim.robot import Robot
 from rvsim.units import degrees_from_radians, millimetres_from_metres
@@ -46,29 +46,43 @@ def tracking_sentence(tracking: Tracking, units: Units = _DEFAULT) -> str:
     missed = tracking.samples - tracking.reached_count
     if not missed:
         return short_sentence(tracking)
-    start, why = short_sentence(tracking).removesuffix("."), reasons(tracking, units)
-    if missed == tracking.samples and len(why) == 1:
-        return f"{start}: {why[0].split(': ', 1)[1]}."
-    return tr("{start}; {missed} not: {why}.", start=start, missed=missed, why="; ".join(why))
+    count, groups = _count_clause(tracking), _groups(tracking.unreached)
+    if missed == tracking.samples and len(groups) == 1:
+        return f"{count}: {stretch_reason(tracking.robot, groups[0], units)}."
+    why = tr("; ").join(reasons(tracking, units))
+    return tr("{count}; {missed} not: {why}.", count=count, missed=missed, why=why)
 
 
 def short_sentence(tracking: Tracking) -> str:
     """How many points were reached: "4 of 11 points reached within the limits."."""
-    within = tr("without regard to the limits") if tracking.ignore_limits else tr("within the limits")
+    return f"{_count_clause(tracking)}."
+
+
+def _count_clause(tracking: Tracking) -> str:
+    samples, within = tracking.samples, tr(_WITHIN[tracking.ignore_limits])
     if tracking.complete:
-        count = tr("The one point") if tracking.samples == 1 else tr("All {samples} points", samples=tracking.samples)
-        return tr(
-            "{count} reached {within}{jump_clause}.", count=count, within=within, jump_clause=_jump_clause(tracking)
+        count = trn("The one point reached {within}", "All {n} points reached {within}", samples, within=within)
+    elif tracking.reached_count:
+        count = trn(
+            "{reached} of {n} point reached {within}",
+            "{reached} of {n} points reached {within}",
+            samples,
+            reached=tracking.reached_count,
+            within=within,
         )
-    if not tracking.reached_count:
-        return tr("None of {points} reached {within}.", points=_points(tracking.samples), within=within)
-    return tr(
-        "{reached_count} of {points} reached {within}{jump_clause}.",
-        reached_count=tracking.reached_count,
-        points=_points(tracking.samples),
-        within=within,
-        jump_clause=_jump_clause(tracking),
+    else:
+        count = trn("None of {n} point reached {within}", "None of {n} points reached {within}", samples, within=within)
+    if not tracking.jumps:
+        return count
+    return trn(
+        "{count}, with a change of branch on the way",
+        "{count}, with {n} changes of branch on the way",
+        len(tracking.jumps),
+        count=count,
     )
+
+
+_WITHIN = {True: tr_later("without regard to the limits"), False: tr_later("within the limits")}
 
 
 def reasons(tracking: Tracking, units: Units = _DEFAULT) -> tuple[str, ...]:
@@ -77,11 +91,20 @@ def reasons(tracking: Tracking, units: Units = _DEFAULT) -> tuple[str, ...]:
     return tuple(f"{_which(group)}: {stretch_reason(tracking.robot, group, units)}" for group in groups)
 
 
+def first_reason(tracking: Tracking, units: Units = _DEFAULT) -> str:
+    """Why the first points that failed did so, as a clause."""
+    return stretch_reason(tracking.robot, _groups(tracking.unreached)[0], units)
+
+
 def deviation_sentence(tracking: Tracking, units: Units = _DEFAULT) -> str:
     """RMS and largest deviation over the reached points, and what the solving took."""
     if tracking.rms is None or tracking.max_deviation is None:
         return tr("No point was reached: there is no deviation to tell.")
-    over = tr("all points") if tracking.complete else tr("the {points} reached", points=_points(tracking.reached_count))
+    over = (
+        tr("all points")
+        if tracking.complete
+        else trn("the {n} point reached", "the {n} points reached", tracking.reached_count)
+    )
     rms, largest = (length_error(tracking.robot, error, units) for error in (tracking.rms, tracking.max_deviation))
     milliseconds = 1e3 * tracking.solve_seconds
     return tr(
@@ -100,13 +123,13 @@ def advice_sentence(tracking: Tracking) -> str:
         return ""
     turns = tracking.path.rotations is not None and tracking.robot.dof >= _FEWEST_JOINTS_TO_TURN
     free = tr("leave the orientation free") if tracking.robot.dof != 5 else tr("leave the pitch free")
-    choices = [
+    *others, last = [
         *([free] if turns and kinds & {"orientation", "limits"} else []),
         *([tr("ignore the limits")] if "limits" in kinds else []),
         tr("move the path nearer to where the arm can work") if "reach" in kinds else tr("move the path"),
     ]
-    text = choices[0] if len(choices) == 1 else f"{', '.join(choices[:-1])}, or {choices[-1]}"
-    return f"{text[0].upper()}{text[1:]}."
+    text = tr("{others}, or {last}.", others=tr(", ").join(others), last=last) if others else f"{last}."
+    return f"{text[0].upper()}{text[1:]}"
 
 
 def joint_amount(robot: Robot, joint: str, value: float, units: Units = _DEFAULT) -> str:
@@ -129,32 +152,17 @@ def length_number(robot: Robot, length: float, units: Units = _DEFAULT) -> tuple
 
 
 def _length_unit(robot: Robot, units: Units) -> str:
-    return "units" if robot.length_unit == "unit" else units.length
+    return tr("units") if robot.length_unit == "unit" else units.length
 
 
 def _amount(length: float, unit: str) -> str:
     value, decimals = {"mm": (millimetres_from_metres(length), 1), "m": (length, 4)}.get(unit, (length, 3))
-    return f"{_plain(value, decimals)} {unit}"
+    return f"{left_to_right(_plain(value, decimals))} {unit}"
 
 
 def _plain(value: float, decimals: int = 1) -> str:
     text = f"{round(value, decimals) + 0.0:.{decimals}f}"
     return text.rstrip("0").rstrip(".").replace("-", MINUS)
-
-
-def _points(count: int) -> str:
-    return "1 point" if count == 1 else tr("{count} points", count=count)
-
-
-def _jump_clause(tracking: Tracking) -> str:
-    if not tracking.jumps:
-        return ""
-    times = (
-        tr("a change of branch")
-        if len(tracking.jumps) == 1
-        else tr("{count} changes of branch", count=len(tracking.jumps))
-    )
-    return tr(", with {times} on the way", times=times)
 
 
 def _groups(unreached: Iterable[Unreached]) -> list[list[Unreached]]:
@@ -176,7 +184,9 @@ def _cause(point: Unreached) -> tuple[str, str | None, float | None]:
 def _which(group: list[Unreached]) -> str:
     first, last = group[0].index + 1, group[-1].index + 1
     return (
-        tr("point {first}", first=first) if first == last else tr("points {first}\u2013{last}", first=first, last=last)
+        tr("point {number}", number=first)
+        if first == last
+        else tr("points {first}\u2013{last}", first=first, last=last)
     )
 
 
@@ -192,16 +202,16 @@ def stretch_reason(robot: Robot, group: list[Unreached], units: Units) -> str:
     most, least = (joint_amount(robot, point.joint, value, units) for value in (needed[0], needed[-1]))
     stop = joint_amount(robot, point.joint, limit, units)
     if most == least:
-        return tr("{joint} needs {most}, stops at {stop}", joint=_joint(point.joint), most=most, stop=stop)
+        return tr("{joint} needs {most}, stops at {stop}", joint=joint_words(point.joint), most=most, stop=stop)
     return tr(
         "{joint} needs {most} … {least} and stops at {stop}",
-        joint=_joint(point.joint),
+        joint=joint_words(point.joint),
         most=most,
         least=least,
         stop=stop,
     )
 
 
-def _joint(name: str) -> str:
-    """With an article where the name is a word."""
-    return tr("the {name}", name=name) if name.replace(" ", "").isalpha() else name
+def joint_words(name: str) -> str:
+    """A joint in a sentence: with an article where its name is a word, "the elbow", but "theta2"."""
+    return tr("the {joint}", joint=tr(name)) if name.replace(" ", "").isalpha() else tr(name)

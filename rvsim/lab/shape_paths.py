@@ -106,9 +106,9 @@ def formula_points(shape: FormulaShape) -> FloatArray:
     if sum(stage.samples for stage in shape.stages) > MOST_SAMPLES:
         raise FormulaError(
             len(shape.stages),
-            "points",
+            tr("points"),
             "",
-            tr("all stages together have more than {most_samples} points", most_samples=MOST_SAMPLES),
+            tr("all stages together have more than {most} points", most=MOST_SAMPLES),
         )
     pieces = [
         np.column_stack([_coordinate(number, name, getattr(stage, name), t) for name in _COORDINATES])
@@ -155,9 +155,7 @@ def _default_formulas(robot: Robot, middle: FloatArray, half: float) -> FormulaS
     up = f"{z:g}" if original_name(robot) == "planar" else f"{z:g} + {_round(0.02 * r):g}*t"
     stages = (
         FormulaStage(5.0, 51, f"{x:g}", f"{y:g} + {r / 5.0:g}*t", up),
-        FormulaStage(
-            15.0, 100, tr("{x:g} - {r:g}*sin(pi/5*t)", x=x, r=r), tr("{y:g} - {r:g}*cos(pi/5*t)", y=y, r=r), up
-        ),
+        FormulaStage(15.0, 100, f"{x:g} - {r:g}*sin(pi/5*t)", f"{y:g} - {r:g}*cos(pi/5*t)", up),
     )
     return FormulaShape(stages, unit=unit)
 
@@ -259,7 +257,7 @@ def in_plane(robot: Robot, task: TrajectoryTask, plane: str) -> TrajectoryTask:
     if plane not in PLANES:
         raise UnknownNameError("plane", plane, tuple(PLANES))
     if not is_flat(task):
-        raise UnknownNameError(tr("flat shape"), task.name, FLAT_SHAPES)
+        raise UnknownNameError(tr_later("flat shape"), task.name, FLAT_SHAPES)
     where = placement_of(robot, task)
     return placed_task(robot, task, laid(where, plane, level_yaw(task.name, where.center)))
 

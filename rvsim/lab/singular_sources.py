@@ -94,10 +94,10 @@ class Barrier(NamedTuple):
             return tr("Singular: upper arm, forearm and hand are in line.")
         numbers = ", ".join(f"{value:.3f}" for value in self.sigma)
         return tr(
-            "Not singular: σ = {numbers} m. A barrier: joint {stop} is at its stop, and the other three "
+            "Not singular: σ = {numbers} m. A barrier: joint {joint} is at its stop, and the other three "
             "joints have lost a direction.",
             numbers=numbers,
-            stop=self.stop + 1,
+            joint=self.stop + 1,
         )
 
 

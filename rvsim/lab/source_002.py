@@ -21,7 +21,7 @@ import numpy as np
 
 from rvsim.kinematics import forward_kinematics, jacobian
 from rvsim.lab.drawings import ellipse
-from rvsim.language import tr
+from rvsim.language import tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import millimetres_from_metres
@@ -115,7 +115,7 @@ def printed_recipe() -> Recipe:
     """Everything as the source's code has it."""
     next_factor, sent_factor = _INTO_NEXT / _INTO_GUESS, _INTO_PLOT / _INTO_GUESS
     formulas = Formulas(printed_position, printed_jacobian)
-    return Recipe(tr("As printed"), formulas, _THRESHOLD, next_factor, sent_factor)
+    return Recipe(tr_later("As printed"), formulas, _THRESHOLD, next_factor, sent_factor)
 
 
 def corrected_recipe(robot: Robot) -> Recipe:
@@ -124,7 +124,7 @@ def corrected_recipe(robot: Robot) -> Recipe:
         lambda q: millimetres_from_metres(forward_kinematics(robot, q)[:3, 3]),
         lambda q: millimetres_from_metres(jacobian(robot, q)[:3]),
     )
-    return Recipe(tr("Corrected"), formulas, _FINEST, 1.0, 1.0)
+    return Recipe(tr_later("Corrected"), formulas, _FINEST, 1.0, 1.0)
 
 
 def follow_ellipse(robot: Robot, recipe: Recipe) -> Run:

@@ -14,7 +14,7 @@ import numpy as np
 
 from rvsim.errors import ExpressionError, PathFileError
 from rvsim.expressions import evaluate
-from rvsim.language import tr
+from rvsim.language import tr, trn
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import metres_from_millimetres, radians_from_degrees
 
@@ -69,8 +69,8 @@ def read_text(file: Path | str) -> str:
         raise PathFileError(
             path,
             tr("the file"),
-            tr("{st_size} bytes", st_size=path.stat().st_size),
-            tr("at most {largest_bytes}", largest_bytes=LARGEST_BYTES),
+            trn("{n} byte", "{n} bytes", path.stat().st_size),
+            tr("at most {most}", most=LARGEST_BYTES),
         )
     try:
         return path.read_text(encoding="utf-8-sig")
@@ -88,7 +88,7 @@ def raw_table(path: Path, text: str, delimiter: str = "", has_header: bool | Non
     """
     lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if counts(line)]
     if not lines:
-        raise PathFileError(path, tr("the file"), "nothing", tr("rows of numbers"))
+        raise PathFileError(path, tr("the file"), tr("nothing"), tr("rows of numbers"))
     mark = delimiter or next((mark for mark in DELIMITERS if mark in lines[0][1].strip()), ",")
     rows = [RawRow(number, cells_of(line, mark)) for number, line in lines]
     header = not any(is_number(cell) for cell in rows[0].cells) if has_header is None else has_header
@@ -163,15 +163,15 @@ def table_values(table: RawTable, columns: Sequence[Column]) -> FloatArray:
 
 
 def _value(path: Path, row: RawRow, column: Column) -> float:
-    where = tr("row {number}, column {index} ({name})", number=row.number, index=column.index + 1, name=column.name)
+    where = tr("row {row}, column {column} ({name})", row=row.number, column=column.index + 1, name=column.name)
     if column.index >= len(row.cells):
-        raise PathFileError(path, where, "nothing", "a number")
+        raise PathFileError(path, where, tr("nothing"), tr("a number"))
     cell = row.cells[column.index]
     try:
         value = number_in(cell)
     except ExpressionError:
         found = f"“{cell[:30]}”" if cell else tr("an empty cell")
-        raise PathFileError(path, where, found, "a number") from None
+        raise PathFileError(path, where, found, tr("a number")) from None
     if not math.isfinite(value):
         raise PathFileError(path, where, f"“{cell[:30]}”", tr("a number of usual size"))
     return value

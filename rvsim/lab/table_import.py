@@ -12,7 +12,7 @@ from rvsim.experiment import limit_violations
 from rvsim.experiment.program import JointMove, LineMove, Program
 from rvsim.lab.sentences import joint_amount
 from rvsim.lab.table_file import Column, ColumnUnit, RawTable, column_for, table_values, unit_of
-from rvsim.language import tr
+from rvsim.language import tr, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -83,11 +83,11 @@ def joints_in(table: RawTable, columns: Sequence[Column], robot: Robot, *, ignor
     name = robot.joint_names[joint]
     column = columns[joint]
     where = tr(
-        "row {number}, column {index} ({name})", number=table.rows[row].number, index=column.index + 1, name=column.name
+        "row {row}, column {column} ({name})", row=table.rows[row].number, column=column.index + 1, name=column.name
     )
     found, stop = (joint_amount(robot, name, number) for number in (value, limit))
     raise PathFileError(
-        table.path, where, found, tr("the {name} within its limits: it stops at {stop}", name=name, stop=stop)
+        table.path, where, found, tr("the {joint} within its limits: it stops at {stop}", joint=tr(name), stop=stop)
     )
 
 
@@ -101,13 +101,13 @@ def times_in(table: RawTable, column: Column) -> FloatArray:
     back = np.flatnonzero(np.diff(times) <= 0.0)
     if len(back):
         where = tr(
-            "row {number}, column {index} ({name})",
-            number=table.rows[int(back[0]) + 1].number,
-            index=column.index + 1,
+            "row {row}, column {column} ({name})",
+            row=table.rows[int(back[0]) + 1].number,
+            column=column.index + 1,
             name=column.name,
         )
         raise PathFileError(
-            table.path, where, f"{times[back[0] + 1]:g} s", tr("a time after {times:g} s", times=times[back[0]])
+            table.path, where, f"{times[back[0] + 1]:g} s", tr("a time after {seconds:g} s", seconds=times[back[0]])
         )
     return times
 
@@ -122,8 +122,8 @@ def moves_through(table: RawTable, values: FloatArray, content: Content) -> Prog
         raise PathFileError(
             table.path,
             tr("the file"),
-            tr("{count} rows", count=len(values)),
-            tr("at most {most_moves} for a program", most_moves=MOST_MOVES),
+            trn("{n} row", "{n} rows", len(values)),
+            tr("at most {most} for a program", most=MOST_MOVES),
         )
     if content == "joints":
         return tuple(JointMove(tuple(row)) for row in values.tolist())

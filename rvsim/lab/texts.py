@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rvsim.errors import ShapeError
-from rvsim.language import tr
 
 FloatArray = NDArray[np.float64]
 
@@ -50,7 +49,7 @@ def matrix_numpy(matrix: ArrayLike) -> str:
     """
     rows = ["[" + ", ".join(map(_numpy_number, row)) + "]" for row in _two_axes(matrix)]
     if np.ndim(matrix) == 1:
-        return tr("np.array({rows})", rows=rows[0])
+        return f"np.array({rows[0]})"
     return "np.array([\n" + "".join(f"    {row},\n" for row in rows) + "])"
 
 

@@ -40,7 +40,7 @@ def test_headers_separators_decimal_commas_and_expressions(tmp_path: Path, text:
         ("300,0,200\n310,left,200\n", "row 2, column 2 (y): found “left”, expected a number in millimetres"),
         ("300,0,200\n\n310,0\n", "row 3, column 3 (z): found nothing, expected a number in millimetres"),
         ("300,,200\n", "row 1, column 2 (y): found an empty cell"),
-        ("a,b,c\n1,2,3\n", "row 1: found a header without x and y and z (a, b, c)"),
+        ("a,b,c\n1,2,3\n", "row 1: found a header without x, y and z (a, b, c)"),
         ("x,y,z\n", "found a header only"),
         ("", "found nothing"),
         ("300,inf,200\n", "row 1, column 2 (y): found “inf”"),

@@ -29,7 +29,7 @@ def drawn(key: str, item: str, robot: Robot, path: Path, *, ignore_limits: bool 
     """The source draws every point; how many the arm can draw."""
     wanted = path.samples
     reached = track(robot, path, ignore_limits=ignore_limits).reached_count
-    verdict = "confirmed" if reached == wanted else tr("partly reached") if reached else tr("cannot be reached")
+    verdict = "confirmed" if reached == wanted else "partly reached" if reached else "cannot be reached"
     return Claim(
         key,
         key[:3],

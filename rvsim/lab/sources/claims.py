@@ -79,9 +79,7 @@ def _ellipse_drawn() -> tuple[Claim, ...]:
 
 
 def _gravity() -> tuple[Claim, ...]:
-    return tuple(
-        _gravity_at(tr("002-gravity-{number}", number=number), pose) for number, pose in enumerate(GRAVITY_002, start=1)
-    )
+    return tuple(_gravity_at(f"002-gravity-{number}", pose) for number, pose in enumerate(GRAVITY_002, start=1))
 
 
 def _gravity_at(key: str, pose_deg: tuple[float, ...]) -> Claim:

@@ -18,7 +18,7 @@ from rvsim.lab.sources.claim import Claim, drawn, drawn_by_name
 from rvsim.lab.sources.figures import Numbers, as_numbers, pose_text
 from rvsim.lab.sources.programs_000 import BOXES, LETTER_PAUSE, LINE_PAUSE, compute_dh_matrix, rvm1_fk
 from rvsim.lab.sources.source_000_frames import TEXT_POSE
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 from rvsim.motion import Path
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -50,47 +50,76 @@ def _of_the_text() -> tuple[Claim, ...]:
     branches = inverse_branches(robot, forward_kinematics(robot, TEXT_POSE))
     sigma = as_numbers(np.linalg.svd(jacobian(robot, STRETCHED_POSE)[:3, :4], compute_uv=False)[-1])
     return (
-        Claim("000-figure-5", "000", tr("Figure 5: range of θ₄ [deg]"), (0.0, 180.0), None, (lower, upper),
-              "contradiction"),
-        Claim("000-6.1", "000", tr("Section 6.1: solutions for the tool at {at}", at=_at(TEXT_POSE)), None, None,
-              float(len(branches)), "computed"),
-        Claim("000-30", "000", tr("(30): smallest singular value of Ĵ at θ₃ = 0, θ₄ = "
-                                  "90°"), 0.0, 0.0, sigma, "confirmed"),
-    )  # fmt: skip
+        Claim(
+            "000-figure-5",
+            "000",
+            tr("Figure 5: range of θ₄ [deg]"),
+            (0.0, 180.0),
+            None,
+            (lower, upper),
+            "contradiction",
+        ),
+        Claim(
+            "000-6.1",
+            "000",
+            tr("Section 6.1: solutions for the tool at {pose}", pose=_at(TEXT_POSE)),
+            None,
+            None,
+            float(len(branches)),
+            "computed",
+        ),
+        Claim(
+            "000-30", "000", tr("(30): smallest singular value of Ĵ at θ₃ = 0, θ₄ = 90°"), 0.0, 0.0, sigma, "confirmed"
+        ),
+    )
 
 
 def _forward_programs() -> tuple[Claim, ...]:
     robot = load_robot(_ARM)
     block = float(np.linalg.det(compute_dh_matrix(0.0, 0.7, 0.0, TEXT_POSE[0])[:3, :3]))
     return (
-        _tool_claim(robot, "000-P1", tr("Program 1: tool's place"), EXAMPLE_POSE),
-        Claim("000-P2", "000", tr("Program 2: determinant with θ₁ = 30° and α = 0.7 rad"), None, as_numbers(block), 1.0,
-              "confirmed"),
-        _tool_claim(robot, "000-P3", tr("Program 3, pos(6): tool's place"), TEXT_POSE),
-    )  # fmt: skip
+        _tool_claim(robot, "000-P1", tr_later("Program 1: tool's place [mm] at {pose}"), EXAMPLE_POSE),
+        Claim(
+            "000-P2",
+            "000",
+            tr("Program 2: determinant with θ₁ = 30° and α = 0.7 rad"),
+            None,
+            as_numbers(block),
+            1.0,
+            "confirmed",
+        ),
+        _tool_claim(robot, "000-P3", tr_later("Program 3, pos(6): tool's place [mm] at {pose}"), TEXT_POSE),
+    )
 
 
 def _tool_claim(robot: Robot, key: str, item: str, q: tuple[float, ...]) -> Claim:
     formula, ours = _mm(rvm1_fk(np.array(q))[5]), _mm(forward_kinematics(robot, q)[:3, 3])
-    return Claim(key, "000", f"{item} [mm] at {_at(q)}", None, formula, ours, "confirmed")
+    return Claim(key, "000", tr(item, pose=_at(q)), None, formula, ours, "confirmed")
 
 
 def _figure_programs() -> tuple[Claim, ...]:
     robot = load_robot(_ARM)
     drawn_length = np.linalg.norm(np.diff(rvm1_fk(np.array(EXAMPLE_POSE))[:6], axis=0), axis=1).sum()
     return (
-        Claim("000-P4", "000", tr("Program 4: length of the stick figure [mm]"), None, _mm(drawn_length),
-              _mm(np.abs(robot.dh[:, 1:3]).sum()), "confirmed"),
-        _elbow(robot, tr("Program 5"), 90.0),
-        _elbow(robot, tr("Program 6"), 60.0),
-    )  # fmt: skip
+        Claim(
+            "000-P4",
+            "000",
+            tr("Program 4: length of the stick figure [mm]"),
+            None,
+            _mm(drawn_length),
+            _mm(np.abs(robot.dh[:, 1:3]).sum()),
+            "confirmed",
+        ),
+        _elbow(robot, 5, 90.0),
+        _elbow(robot, 6, 60.0),
+    )
 
 
-def _elbow(robot: Robot, program: str, printed: float) -> Claim:
+def _elbow(robot: Robot, program: int, printed: float) -> Claim:
     lower, upper = degrees_from_radians(robot.limits[2])
     nearest = float(np.clip(printed, lower, upper))
-    item = tr("{program}: elbow θ₃, nearest within the limits [deg]", program=program)
-    return Claim(f"000-P{program[-1]}", "000", item, printed, None, nearest, tr("outside limits"))
+    item = tr("Program {number}: elbow θ₃, nearest within the limits [deg]", number=program)
+    return Claim(f"000-P{program}", "000", item, printed, None, nearest, "outside limits")
 
 
 def source_line(robot: Robot) -> Path:
@@ -115,12 +144,18 @@ def _line_tracked() -> tuple[Claim, ...]:
     reach = float(np.abs(robot.dh[1:, 1:3]).sum())
     return (
         drawn("000-P8", tr("Program 8: the line, without limits"), robot, line, ignore_limits=True),
-        Claim("000-P10", "000", tr("Programs 10 and 11: reach from the shoulder as the axes say "
-                                   "[m]"), None, 10.0 * reach,
-              reach, "misprint"),
+        Claim(
+            "000-P10",
+            "000",
+            tr("Programs 10 and 11: reach from the shoulder as the axes say [m]"),
+            None,
+            10.0 * reach,
+            reach,
+            "misprint",
+        ),
         Claim("000-P10", "000", tr("Program 10: its pauses [s]"), None, None, LINE_PAUSE * line.samples, "computed"),
         drawn("000-P12", tr("Program 12: the line, within the source's limits"), robot, line),
-    )  # fmt: skip
+    )
 
 
 def _solver() -> tuple[Claim, ...]:
@@ -135,7 +170,7 @@ def _solver() -> tuple[Claim, ...]:
         result = solve_numeric(robot, T, q, task=AS_IN_SOURCE_000.task, options=options, clock=_no_clock)
         q, found = result.q, found + result.converged
     item = tr("Program 8: the line by Levenberg–Marquardt, tolerance 0.01, points found of 11")
-    return (Claim("000-P8", "000", item, 11.0, None, float(found), tr("partly reached")),)
+    return (Claim("000-P8", "000", item, 11.0, None, float(found), "partly reached"),)
 
 
 def _no_clock() -> float:
@@ -150,14 +185,22 @@ def _letter() -> tuple[Claim, ...]:
     reach = np.abs(robot.dh[1:, 1:3]).sum()
     return (
         drawn_by_name("000-P9", tr("Program 9: the letter as printed, in decimetres"), _ARM, "letter-raw"),
-        Claim("000-P11", "000", tr("Program 11: its pauses [s]"), None, None, LETTER_PAUSE * len(letter_raw()), "computed"),
-        Claim("000-P13", "000", tr("Program 13: the letter's nearest point from the shoulder, and the reach "
-                                   "[mm]"), None,
-              _mm(nearest), _mm(reach), tr("cannot be reached")),
+        Claim(
+            "000-P11", "000", tr("Program 11: its pauses [s]"), None, None, LETTER_PAUSE * len(letter_raw()), "computed"
+        ),
+        Claim(
+            "000-P13",
+            "000",
+            tr("Program 13: the letter's nearest point from the shoulder, and the reach [mm]"),
+            None,
+            _mm(nearest),
+            _mm(reach),
+            "cannot be reached",
+        ),
         drawn_by_name(
             "000-P16", tr("Program 16: the letter divided by 40, at a height of 300 mm"), _ARM, "letter-scaled"
         ),
-    )  # fmt: skip
+    )
 
 
 def _window() -> tuple[Claim, ...]:
@@ -165,9 +208,22 @@ def _window() -> tuple[Claim, ...]:
     exchanged = np.array(TEXT_POSE)[[0, 1, 2, 4, 3]]
     formula, ours = (_mm(forward_kinematics(robot, q)[:3, 3]) for q in (exchanged, np.array(TEXT_POSE)))
     return (
-        Claim("000-P14", "000", tr("Program 14: boxes to type into"), float(BOXES), None, float(robot.dof + 6),
-              "confirmed"),
-        Claim("000-P15", "000", tr("Program 15: tool's place [mm] for {at} typed into boxes 7 to "
-                                   "11", at=_at(TEXT_POSE)), None,
-              formula, ours, "misprint"),
-    )  # fmt: skip
+        Claim(
+            "000-P14",
+            "000",
+            tr("Program 14: boxes to type into"),
+            float(BOXES),
+            None,
+            float(robot.dof + 6),
+            "confirmed",
+        ),
+        Claim(
+            "000-P15",
+            "000",
+            tr("Program 15: tool's place [mm] for {pose} typed into boxes 7 to 11", pose=_at(TEXT_POSE)),
+            None,
+            formula,
+            ours,
+            "misprint",
+        ),
+    )

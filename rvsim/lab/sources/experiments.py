@@ -15,14 +15,13 @@ from rvsim.lab.sources.experiments_others import (
     EXPERIMENTS_003,
     EXPERIMENTS_004,
 )
-from rvsim.language import tr_later
 
 SOURCE_TITLES = {
-    "000": tr_later("Mitsubishi RV-M1"),
-    "001": tr_later("Mitsubishi RV-1A"),
-    "002": tr_later("Universal Robots UR5e"),
-    "003": tr_later("RRRP arm"),
-    "004": tr_later("Lynxmotion AL5B"),
+    "000": "Mitsubishi RV-M1",
+    "001": "Mitsubishi RV-1A",
+    "002": "Universal Robots UR5e",
+    "003": "RRRP arm",
+    "004": "Lynxmotion AL5B",
 }
 _LISTS = (EXPERIMENTS_000, EXPERIMENTS_001, EXPERIMENTS_002, EXPERIMENTS_003, EXPERIMENTS_004)
 

@@ -16,7 +16,7 @@ from rvsim.lab.sources.collection import errata
 from rvsim.lab.sources.erratum import Comparison, Erratum
 from rvsim.lab.sources.experiments import keys_in_order
 from rvsim.lab.sources.figures import Numbers, as_numbers, pose_text, shown_value, unit_of
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot.arrays import FloatArray
 
 _SAME = 1e-6  # in the units that are printed
@@ -26,11 +26,11 @@ class Reproduction(NamedTuple):
     """One number (or several) of a source; angles in degrees, lengths in mm (units), as the item says.
 
     Args:
-        source, item: "000", and the place with what it is, its unit and the pose.
+        source, item: "000", and the place with what it is, its unit and the pose, in the language that is spoken.
         printed: the number in the source, None where it prints a formula only.
         formula: what the printed formula or program gives, None where there is none.
         ours: what is right.
-        verdict: in a word or two.
+        verdict: in a word or two, in English: a key of `VERDICTS`.
     """
 
     source: str
@@ -42,7 +42,7 @@ class Reproduction(NamedTuple):
 
 
 class _Pick(NamedTuple):
-    """Which number of a matrix tells the fault."""
+    """Which number of a matrix tells the fault; its name is in English."""
 
     name: str
     unit: str
@@ -50,27 +50,27 @@ class _Pick(NamedTuple):
 
 
 _PLACE = _Pick(tr_later("tool's place"), "mm", lambda T: 1e3 * T[:3, 3])
-_DETERMINANT = _Pick("determinant", "", lambda T: float(np.linalg.det(T)))
-_RANK = _Pick("rank", "", lambda J: float(np.linalg.matrix_rank(J)) if np.isfinite(J).all() else np.nan)
+_DETERMINANT = _Pick(tr_later("determinant"), "", lambda T: float(np.linalg.det(T)))
+_RANK = _Pick(tr_later("rank"), "", lambda J: float(np.linalg.matrix_rank(J)) if np.isfinite(J).all() else np.nan)
 _PICKS = {
     "000-3": _PLACE,
-    "000-2": _PLACE._replace(name="origin"),
+    "000-2": _PLACE._replace(name=tr_later("origin")),
     "000-4": _DETERMINANT,
     "000-8": _PLACE,
     "000-9": _PLACE,
     "000-21": _Pick(tr_later("column 4, linear"), "mm/rad", lambda J: 1e3 * J[:3, 3]),
     "000-22": _RANK,
-    "001-3": _PLACE._replace(name="origin"),
+    "001-3": _PLACE._replace(name=tr_later("origin")),
     "002-R": _Pick("e12, e22", "", lambda R: R[:2, 1]),
-    "002-J": _Pick("column 2", "mm/rad", lambda J: 1e3 * J[:, 1]),
-    "004-2.2": _Pick("entry [2, 4]", "mm", lambda A: 1e3 * A[1, 3]),
+    "002-J": _Pick(tr_later("column 2"), "mm/rad", lambda J: 1e3 * J[:, 1]),
+    "004-2.2": _Pick(tr_later("entry [2, 4]"), "mm", lambda A: 1e3 * A[1, 3]),
     "004-3.8": _DETERMINANT,
     "004-3.12": _DETERMINANT,
-    "004-3.13": _Pick("entry [1, 1]", "", lambda A: float(A[0, 0])),
+    "004-3.13": _Pick(tr_later("entry [1, 1]"), "", lambda A: float(A[0, 0])),
     "004-3.15": _DETERMINANT,
     "004-4.7": _RANK,
-    "004-4.11": _Pick("J1, linear", "mm/rad", lambda column: 1e3 * column[:3]),
-    "004-4.15": _Pick("J5, linear", "mm/rad", lambda column: 1e3 * column[:3]),
+    "004-4.11": _Pick(tr_later("J1, linear"), "mm/rad", lambda column: 1e3 * column[:3]),
+    "004-4.15": _Pick(tr_later("J5, linear"), "mm/rad", lambda column: 1e3 * column[:3]),
 }
 # The numbers that the sources print themselves, where they belong to a formula of the list.
 _PRINTED: dict[str, Numbers] = {"000-P6": 0.0, "002-rms": 1.0}
@@ -131,9 +131,18 @@ def reproduction_text(rows: tuple[Reproduction, ...]) -> str:
 
 
 def _paragraph(row: Reproduction) -> str:
-    values = (("printed", row.printed), (tr("its formula"), row.formula), ("ours", row.ours))
-    numbers = "   ".join(f"{name} {shown_value(value)}" for name, value in values if value is not None)
-    return f"{row.source}  {row.item}\n     {numbers}   {row.verdict}"
+    values = ((tr("printed"), row.printed), (tr("its formula"), row.formula), (tr("ours"), row.ours))
+    numbers = "   ".join(f"{name} {left_to_right(shown_value(value))}" for name, value in values if value is not None)
+    return f"{row.source}  {row.item}\n     {numbers}   {tr(row.verdict)}"
+
+
+# What an item says, with and without a unit and a pose.
+_ITEMS = {
+    (True, True): tr_later("{where}: {what} [{unit}] at {pose}"),
+    (True, False): tr_later("{where}: {what} [{unit}]"),
+    (False, True): tr_later("{where}: {what} at {pose}"),
+    (False, False): tr_later("{where}: {what}"),
+}
 
 
 def _of_erratum(entry: Erratum) -> Reproduction:
@@ -141,8 +150,9 @@ def _of_erratum(entry: Erratum) -> Reproduction:
     comparison = entry.compare(robot, entry.pose)
     assert comparison is not None  # only those with numbers are asked
     name, unit, printed, right = _picked(entry, comparison)
-    at = "" if entry.key in _WITHOUT_POSE else f" at {pose_text(robot, entry.pose)}"
-    item = f"{entry.where}: {name}{f' [{unit}]' if unit else ''}{at}"
+    pose = "" if entry.key in _WITHOUT_POSE else pose_text(robot, entry.pose)
+    text = _ITEMS[bool(unit), bool(pose)]
+    item = tr(text, where=tr(entry.where), what=name, unit=unit, pose=pose)
     claimed, formula, ours = _PRINTED.get(entry.key), as_numbers(printed), as_numbers(right)
     verdict = _verdict(printed, right) if claimed is None else "contradiction"
     return Reproduction(entry.source, item, claimed, formula, ours, verdict)
@@ -152,9 +162,16 @@ def _picked(entry: Erratum, comparison: Comparison) -> tuple[str, str, FloatArra
     """What is shown of a comparison: its name, its unit, and the two values in that unit."""
     if entry.key in _PICKS:
         name, unit, of = _PICKS[entry.key]
-        return name, unit, np.asarray(of(comparison.printed)), np.asarray(of(comparison.right))
+        return tr(name), unit, np.asarray(of(comparison.printed)), np.asarray(of(comparison.right))
     unit, factor = unit_of(load_robot(entry.robot), str(comparison.kinds.flat[0]))
-    return ", ".join(entry.rows) or entry.title, unit, comparison.printed * factor, comparison.right * factor
+    return _names(entry.rows) or tr(entry.title), unit, comparison.printed * factor, comparison.right * factor
+
+
+def _names(rows: tuple[str, ...]) -> str:
+    """The names of several entries; one text in another, so that all of it can be said in English too."""
+    if len(rows) < 2:
+        return tr("".join(rows))
+    return tr("{others}, {last}", others=_names(rows[:-1]), last=tr(rows[-1]))
 
 
 def _verdict(formula: FloatArray, ours: FloatArray) -> str:

@@ -96,86 +96,178 @@ def program_8(robot: Robot, q: FloatArray) -> FloatArray:
 
 ERRATA_000_FRAMES = (
     Erratum(
-        "000-3", _ARM[0], tr_later("(1), (3) and Figure 5"), _ARM[1], "frames",
+        "000-3",
+        _ARM[0],
+        tr_later("(1), (3) and Figure 5"),
+        _ARM[1],
+        "frames",
         tr_later("A modified link matrix with a standard table"),
         (r"{}^{i-1}T_i = T_x(a_{i-1})\,R_x(\alpha_{i-1})\,T_z(d_i)\,R_z(\theta_i)",),
         (r"{}^{i-1}T_i = R_z(\theta_i)\,T_z(d_i)\,T_x(a_i)\,R_x(\alpha_i)",),
-        tr_later("Figure 5 and Program 2 are standard DH, (1) and (3) are Craig's modified form: with the table in "
-                 "(3) the tool "
-        "comes out elsewhere."),
-        TEXT_POSE, "transform", craig_table, flange, columns=_T_COLUMNS, tool=craig_table,
+        tr_later(
+            "Figure 5 and Program 2 are standard DH, (1) and (3) are Craig's modified form: with the table in (3) "
+            "the tool comes out elsewhere."
+        ),
+        TEXT_POSE,
+        "transform",
+        craig_table,
+        flange,
+        columns=_T_COLUMNS,
+        tool=craig_table,
     ),
     Erratum(
-        "000-2", _ARM[0], "(2)", _ARM[1], "frames", tr_later("The inverse of a link is no inverse"),
+        "000-2",
+        _ARM[0],
+        "(2)",
+        _ARM[1],
+        "frames",
+        tr_later("The inverse of a link is no inverse"),
         (r"({}^{i-1}T_i)^{-1} = T_z(-d_i)\,R_z(\theta_i)\,T_x(a_{i-1})\,R_x(-\alpha_{i-1})",),
         (r"({}^{i-1}T_i)^{-1} = R_z(-\theta_i)\,T_z(-d_i)\,R_x(-\alpha_{i-1})\,T_x(-a_{i-1})",),
-        tr_later("An inverse takes the factors of (1) in the opposite order, each inverted. Shown with θ₁, d₁, a₂ and "
-                 "a "
-        "twist of 0.7 rad."),
-        TEXT_POSE, "transform", printed_inverse_product, _inverse_link, columns=_T_COLUMNS,
+        tr_later(
+            "An inverse takes the factors of (1) in the opposite order, each inverted. Shown with θ₁, d₁, a₂ and a "
+            "twist of 0.7 rad."
+        ),
+        TEXT_POSE,
+        "transform",
+        printed_inverse_product,
+        _inverse_link,
+        columns=_T_COLUMNS,
     ),
     Erratum(
-        "000-4", _ARM[0], "(4)", _ARM[1], "frames", tr_later("A wrong sign in the inverse matrix"),
-        (r"(4)_{23} = -\sin\alpha_{i-1}\cos\theta_i",), (r"(4)_{23} = +\sin\alpha_{i-1}\cos\theta_i",),
-        tr_later("With the printed sign the block is no rotation: its determinant is not 1. Shown with θ₁ and α = 0.7 "
-                 "rad."),
-        (0.5, *TEXT_POSE[1:]), "number", printed_inverse_block, _inverse_block,
+        "000-4",
+        _ARM[0],
+        "(4)",
+        _ARM[1],
+        "frames",
+        tr_later("A wrong sign in the inverse matrix"),
+        (r"(4)_{23} = -\sin\alpha_{i-1}\cos\theta_i",),
+        (r"(4)_{23} = +\sin\alpha_{i-1}\cos\theta_i",),
+        tr_later(
+            "With the printed sign the block is no rotation: its determinant is not 1. Shown with θ₁ and α = 0.7 rad."
+        ),
+        (0.5, *TEXT_POSE[1:]),
+        "number",
+        printed_inverse_block,
+        _inverse_block,
     ),
     Erratum(
-        "000-8", _ARM[0], "(7) and (8)", _ARM[1], "frames", tr_later("The hand's 72 mm counted twice"),
-        (r"{}^{0}T_6 = {}^{0}T_5(d_5)\,{}^{5}T_6(d_G)", r"d_5 = d_G = 72"), (r"{}^{0}T_6 = {}^{0}T_5(d_5)",),
-        tr_later("Figure 5 has d₅ = 72 mm already, so that frame 5 is at the finger tips; one of the two lengths, "
-                 "never both."),
-        TEXT_POSE, "transform", gripper_twice, flange, columns=_T_COLUMNS, tool=gripper_twice,
+        "000-8",
+        _ARM[0],
+        tr_later("(7) and (8)"),
+        _ARM[1],
+        "frames",
+        tr_later("The hand's 72 mm counted twice"),
+        (r"{}^{0}T_6 = {}^{0}T_5(d_5)\,{}^{5}T_6(d_G)", r"d_5 = d_G = 72"),
+        (r"{}^{0}T_6 = {}^{0}T_5(d_5)",),
+        tr_later(
+            "Figure 5 has d₅ = 72 mm already, so that frame 5 is at the finger tips; one of the two lengths, never "
+            "both."
+        ),
+        TEXT_POSE,
+        "transform",
+        gripper_twice,
+        flange,
+        columns=_T_COLUMNS,
+        tool=gripper_twice,
     ),
     Erratum(
-        "000-9", _ARM[0], "(9)", _ARM[1], "frames", tr_later("The waist counted clockwise"),
+        "000-9",
+        _ARM[0],
+        "(9)",
+        _ARM[1],
+        "frames",
+        tr_later("The waist counted clockwise"),
         (r"x_G = c_1(a_2 c_2 + a_3 c_{23} + d_G s_{234})", r"y_G = -s_1(a_2 c_2 + a_3 c_{23} + d_G s_{234})"),
         (r"x_G = c_1(a_2 c_2 + a_3 c_{23} + d_G s_{234})", r"y_G = s_1(a_2 c_2 + a_3 c_{23} + d_G s_{234})"),
-        tr_later("(9) is the DH table with θ₁ replaced by −θ₁: clockwise is positive there, while the table and the "
-                 "programs "
-        "turn the right-handed way."),
-        TEXT_POSE, "transform", clockwise, flange, columns=_T_COLUMNS, tool=clockwise,
+        tr_later(
+            "(9) is the DH table with θ₁ replaced by −θ₁: clockwise is positive there, while the table and the "
+            "programs turn the right-handed way."
+        ),
+        TEXT_POSE,
+        "transform",
+        clockwise,
+        flange,
+        columns=_T_COLUMNS,
+        tool=clockwise,
     ),
     Erratum(
-        "000-P6", _ARM[0], tr_later("Program 6"), _ARM[1], "frames", tr_later("“Error 0” between two ways that differ"),
-        (r"e = |p(\theta + \mathrm{offsets}) - p(\theta)|",), (r"e = |p(\theta) - p(\theta)| = 0",),
-        tr_later("The offsets +90° and −90° of the table are added in one of the two ways only; the text reports 0, "
-                 "its own "
-        "program gives 1.018 dm."),
-        TEXT_POSE, "length", program_6, _two_ways,
+        "000-P6",
+        _ARM[0],
+        tr_later("Program 6"),
+        _ARM[1],
+        "frames",
+        tr_later("“Error 0” between two ways that differ"),
+        (r"e = |p(\theta + \mathrm{offsets}) - p(\theta)|",),
+        (r"e = |p(\theta) - p(\theta)| = 0",),
+        tr_later(
+            "The offsets +90° and −90° of the table are added in one of the two ways only; the text reports 0, its "
+            "own program gives 1.018 dm."
+        ),
+        TEXT_POSE,
+        "length",
+        program_6,
+        _two_ways,
     ),
     Erratum(
-        "000-P8", _ARM[0], tr_later("Programs 8 and 9"), _ARM[1], "frames", tr_later("Offsets twice, then a shift of 72 mm"),
-        (r"p = p(\theta + \mathrm{offsets}) - (0.72,\,0,\,0.72)\,\mathrm{dm}",), (r"p = p(\theta)",),
-        tr_later("The solver's angles have the offsets in them already; the shift repairs that only for a tool that "
-                 "points "
-        "down at azimuth 0."),
-        TOOL_DOWN_POSE, "length", program_8, place, rows=("x", "y", "z"),
+        "000-P8",
+        _ARM[0],
+        tr_later("Programs 8 and 9"),
+        _ARM[1],
+        "frames",
+        tr_later("Offsets twice, then a shift of 72 mm"),
+        (r"p = p(\theta + \mathrm{offsets}) - (0.72,\,0,\,0.72)\,\mathrm{dm}",),
+        (r"p = p(\theta)",),
+        tr_later(
+            "The solver's angles have the offsets in them already; the shift repairs that only for a tool that "
+            "points down at azimuth 0."
+        ),
+        TOOL_DOWN_POSE,
+        "length",
+        program_8,
+        place,
+        rows=("x", "y", "z"),
         tool=lambda robot, q: at_place(robot, q, program_8(robot, q)),
     ),
     Erratum(
-        "000-P5", _ARM[0], tr_later("Programs 5 and 6"), _ARM[1], "frames", tr_later("An elbow outside the source's "
-                                                                                     "own limits"),
-        (r"\theta_3 = 90^\circ,\quad \theta_3 = 60^\circ",), (r"-110^\circ \le \theta_3 \le 0^\circ",),
+        "000-P5",
+        _ARM[0],
+        tr_later("Programs 5 and 6"),
+        _ARM[1],
+        "frames",
+        tr_later("An elbow outside the source's own limits"),
+        (r"\theta_3 = 90^\circ,\quad \theta_3 = 60^\circ",),
+        (r"-110^\circ \le \theta_3 \le 0^\circ",),
         tr_later("Section 3 of the source gives the elbow −110° to 0°; the poses of its own examples cannot be taken."),
         TEXT_POSE,
     ),
     Erratum(
-        "000-P15", _ARM[0], tr_later("Program 15"), _ARM[1], "path", tr_later("Two boxes exchanged, and boxes that "
-                                                                              "do nothing"),
-        (r"\theta_5 = \mathrm{edit10},\quad \theta_4 = \mathrm{edit11}",), (),
+        "000-P15",
+        _ARM[0],
+        tr_later("Program 15"),
+        _ARM[1],
+        "path",
+        tr_later("Two boxes exchanged, and boxes that do nothing"),
+        (r"\theta_5 = \mathrm{edit10},\quad \theta_4 = \mathrm{edit11}",),
+        (),
         tr_later("Box 10 is read into θ₅ and box 11 into θ₄; “Track Trajectory” ignores the boxes of the line."),
         TEXT_POSE,
     ),
     Erratum(
-        "000-plots", _ARM[0], tr_later("Programs 1, 10 and 11"), _ARM[1], "frames", tr_later("Metres on axes that are decimetres"),
-        (r"X\,(\mathrm{m}),\quad Y\,(\mathrm{m}),\quad Z\,(\mathrm{m})",), (),
-        tr_later("All lengths are divided by 100 mm, so the axes are decimetres; X and Y are reversed on the display "
-                 "only."),
+        "000-plots",
+        _ARM[0],
+        tr_later("Programs 1, 10 and 11"),
+        _ARM[1],
+        "frames",
+        tr_later("Metres on axes that are decimetres"),
+        (r"X\,(\mathrm{m}),\quad Y\,(\mathrm{m}),\quad Z\,(\mathrm{m})",),
+        (),
+        tr_later(
+            "All lengths are divided by 100 mm, so the axes are decimetres; X and Y are reversed on the display only."
+        ),
         TEXT_POSE,
     ),
-)  # fmt: skip
+)
 
 
 def wrist(robot: Robot, q: FloatArray) -> FloatArray:

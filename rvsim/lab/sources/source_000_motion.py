@@ -137,57 +137,125 @@ def _rank(robot: Robot, q: FloatArray) -> float:
 
 _INVERSE = (
     Erratum(
-        "000-10", "000", "(10)", "rv-m1", "inverse", tr_later("The waist from x and y exchanged"),
-        (r"\theta_1 = \operatorname{atan2}(x_G,\, -y_G)",), (r"\theta_1 = \operatorname{atan2}(y_G,\, x_G)",),
+        "000-10",
+        "000",
+        "(10)",
+        "rv-m1",
+        "inverse",
+        tr_later("The waist from x and y exchanged"),
+        (r"\theta_1 = \operatorname{atan2}(x_G,\, -y_G)",),
+        (r"\theta_1 = \operatorname{atan2}(y_G,\, x_G)",),
         tr_later("atan2 takes y first; and −y_G undoes the clockwise sense of (9), so that the value is 90° − θ₁."),
-        TEXT_POSE, "angle", waist, joint(0), rows=("θ₁",), tool=tool_with(0, waist),
+        TEXT_POSE,
+        "angle",
+        waist,
+        joint(0),
+        rows=("θ₁",),
+        tool=tool_with(0, waist),
     ),
     Erratum(
-        "000-14g", "000", "(14), γ", "rv-m1", "inverse", tr_later("A sign in the law of cosines"),
+        "000-14g",
+        "000",
+        "(14), γ",
+        "rv-m1",
+        "inverse",
+        tr_later("A sign in the law of cosines"),
         (r"\gamma = \frac{a_2^2 - a_3^2 - \alpha^2 - \beta^2}{2 a_2}",),
         (r"\gamma = \frac{a_2^2 - a_3^2 + \alpha^2 + \beta^2}{2 a_2}",),
         tr_later("Squaring (12) and its neighbour brings α² + β² to the other side with a plus."),
-        TEXT_POSE, "length", gamma_shown, _gamma, rows=("γ",),
+        TEXT_POSE,
+        "length",
+        gamma_shown,
+        _gamma,
+        rows=("γ",),
     ),
     Erratum(
-        "000-14", "000", "(14)", "rv-m1", "inverse", tr_later("The shoulder with α and β exchanged"),
+        "000-14",
+        "000",
+        "(14)",
+        "rv-m1",
+        "inverse",
+        tr_later("The shoulder with α and β exchanged"),
         (r"\theta_2 = \operatorname{atan2}(\gamma, \pm\sqrt{r^2 - \gamma^2}) - \operatorname{atan2}(\alpha, \beta)",),
         (r"\theta_2 = \operatorname{atan2}(\gamma, \pm\sqrt{r^2 - \gamma^2}) - \operatorname{atan2}(\beta, \alpha)",),
-        tr_later("α sin θ₂ + β cos θ₂ = r sin(θ₂ + atan2(β, α)), so it is this angle that is taken off; shown with "
-                 "the right γ."),
-        TEXT_POSE, "angle", shoulder, joint(1), rows=("θ₂",), tool=tool_with(1, shoulder),
+        tr_later(
+            "α sin θ₂ + β cos θ₂ = r sin(θ₂ + atan2(β, α)), so it is this angle that is taken off; shown with the "
+            "right γ."
+        ),
+        TEXT_POSE,
+        "angle",
+        shoulder,
+        joint(1),
+        rows=("θ₂",),
+        tool=tool_with(1, shoulder),
         undefined=tr_later("The printed formula has no value here: its root is not real."),
     ),
     Erratum(
-        "000-15", "000", "(15)", "rv-m1", "inverse", tr_later("The elbow with atan2's arguments exchanged"),
+        "000-15",
+        "000",
+        "(15)",
+        "rv-m1",
+        "inverse",
+        tr_later("The elbow with atan2's arguments exchanged"),
         (r"\theta_3 = \operatorname{atan2}(\beta - a_2 c_2,\, \alpha - a_2 s_2) - \theta_2",),
         (r"\theta_3 = \operatorname{atan2}(\alpha - a_2 s_2,\, \beta - a_2 c_2) - \theta_2",),
         tr_later("The height is the sine's part and goes first."),
-        TEXT_POSE, "angle", elbow, joint(2), rows=("θ₃",), tool=tool_with(2, elbow),
+        TEXT_POSE,
+        "angle",
+        elbow,
+        joint(2),
+        rows=("θ₃",),
+        tool=tool_with(2, elbow),
     ),
     Erratum(
-        "000-17", "000", "(16) and (17)", "rv-m1", "inverse", tr_later("The pitch is not the sum of the "
-                                                                       "table's angles"),
+        "000-17",
+        "000",
+        tr_later("(16) and (17)"),
+        "rv-m1",
+        "inverse",
+        tr_later("The pitch is not the sum of the table's angles"),
         (r"\varphi = \theta_2 + \theta_3 + \theta_4", r"\theta_4 = \varphi - \theta_2 - \theta_3"),
-        (r"\varphi + 90^\circ = \theta_2 + \theta_3 + \theta_4",
-         r"\theta_4 = \varphi + 90^\circ - \theta_2 - \theta_3"),
-        tr_later("θ₄ of the table is the joint's angle plus 90°; with the pitch of the hand as φ the wrist is 90° "
-                 "off."),
-        TEXT_POSE, "angle", wrist_pitch, lambda robot, q: dh_angles(robot, q)[3], rows=("θ₄",),
+        (
+            r"\varphi + 90^\circ = \theta_2 + \theta_3 + \theta_4",
+            r"\theta_4 = \varphi + 90^\circ - \theta_2 - \theta_3",
+        ),
+        tr_later(
+            "θ₄ of the table is the joint's angle plus 90°; with the pitch of the hand as φ the wrist is 90° off."
+        ),
+        TEXT_POSE,
+        "angle",
+        wrist_pitch,
+        lambda robot, q: dh_angles(robot, q)[3],
+        rows=("θ₄",),
         tool=tool_with(3, lambda robot, q: wrist_pitch(robot, q) - robot.dh[3, 0]),
     ),
-)  # fmt: skip
+)
 
 _JACOBIAN = (
     Erratum(
-        "000-21", "000", "(19) and (21)", "rv-m1", "jacobian", tr_later("One lever arm for all columns"),
+        "000-21",
+        "000",
+        tr_later("(19) and (21)"),
+        "rv-m1",
+        "jacobian",
+        tr_later("One lever arm for all columns"),
         (r"c_i = \begin{bmatrix} k_{i-1} \times {}^{0}d_5 \\ k_{i-1} \end{bmatrix}",),
         (r"c_i = \begin{bmatrix} z_{i-1} \times (p - o_{i-1}) \\ z_{i-1} \end{bmatrix}",),
         tr_later("The arm of the tool is counted from the joint's own axis, not from the base."),
-        TEXT_POSE, "jacobian", one_lever, jacobian, rows=_AXES, columns=_JOINTS,
+        TEXT_POSE,
+        "jacobian",
+        one_lever,
+        jacobian,
+        rows=_AXES,
+        columns=_JOINTS,
     ),
     Erratum(
-        "000-22", "000", "(22)", "rv-m1", "jacobian", tr_later("Columns that are no columns of this arm"),
+        "000-22",
+        "000",
+        "(22)",
+        "rv-m1",
+        "jacobian",
+        tr_later("Columns that are no columns of this arm"),
         (
             r"c_1 = [\, s_1 \rho,\; c_1 \rho,\; 0,\; 0,\; 0,\; 1 \,]^T",
             r"c_2 = [\, 0,\; {-}\rho,\; 0,\; 0,\; 0,\; {-}1 \,]^T",
@@ -196,42 +264,82 @@ _JACOBIAN = (
             r"c_5 = [\, 0,\; 0,\; d_G s_1,\; {-}s_1,\; {-}c_1,\; 0 \,]^T",
             r"\rho = a_2 c_2 + a_3 c_{23} + d_G s_{234}",
         ),
-        (r"J = \begin{bmatrix} z_0 \times (p - o_0) & \cdots & z_4 \times (p - o_4) \\ z_0 & \cdots & z_4 "
-         r"\end{bmatrix}",),
-        tr_later("The sign of c₁ is wrong, c₂ turns about the waist's axis once more, and the roll is missing: rank 4 "
-                 "instead "
-        "of 5."),
-        TEXT_POSE, "jacobian", columns_22, jacobian, rows=_AXES, columns=_JOINTS,
+        (
+            r"J = \begin{bmatrix} z_0 \times (p - o_0) & \cdots & z_4 \times (p - o_4) \\ z_0 & \cdots & z_4 "
+            r"\end{bmatrix}",
+        ),
+        tr_later(
+            "The sign of c₁ is wrong, c₂ turns about the waist's axis once more, and the roll is missing: rank 4 "
+            "instead of 5."
+        ),
+        TEXT_POSE,
+        "jacobian",
+        columns_22,
+        jacobian,
+        rows=_AXES,
+        columns=_JOINTS,
     ),
     Erratum(
-        "000-24", "000", "(24) and (25)", "rv-m1", "singularity", tr_later("A pseudo-inverse that needs full rank"),
-        (r"\dot\theta = (J^T J)^{-1} J^T \dot x",), (r"\dot\theta = V\, \Sigma^{+} U^T \dot x",),
-        tr_later("At a singularity JᵀJ has no inverse; the singular value decomposition (or damping) gives what can "
-                 "be done. "
-        "Shown: the joint speeds for 100 mm/s along x."),
-        degrees(30, 40, 0, 20, 60), "rate", pseudo_inverse_24, _by_svd, rows=_JOINTS,
+        "000-24",
+        "000",
+        tr_later("(24) and (25)"),
+        "rv-m1",
+        "singularity",
+        tr_later("A pseudo-inverse that needs full rank"),
+        (r"\dot\theta = (J^T J)^{-1} J^T \dot x",),
+        (r"\dot\theta = V\, \Sigma^{+} U^T \dot x",),
+        tr_later(
+            "At a singularity JᵀJ has no inverse; the singular value decomposition (or damping) gives what can be "
+            "done. Shown: the joint speeds for 100 mm/s along x."
+        ),
+        degrees(30, 40, 0, 20, 60),
+        "rate",
+        pseudo_inverse_24,
+        _by_svd,
+        rows=_JOINTS,
         undefined=tr_later("Here JᵀJ is singular: the printed pseudo-inverse does not exist."),
     ),
-)  # fmt: skip
+)
 
 _SINGULARITIES = (
     Erratum(
-        "000-29", "000", "(29) and (30)", "rv-m1", "singularity", tr_later("A family of singularities is missing"),
+        "000-29",
+        "000",
+        tr_later("(29) and (30)"),
+        "rv-m1",
+        "singularity",
+        tr_later("A family of singularities is missing"),
         (r"\sin\theta_3 = 0 \;\wedge\; \cos\theta_4 = 0",),
         (r"\sin\theta_3 = \cos\theta_4 = 0 \quad\mathrm{or}\quad a_2 c_2 + a_3 c_{23} + d_G s_{234} = 0",),
-        tr_later("With the tip on the base axis the waist does not move it; that is reachable within the limits. "
-                 "Shown: the "
-        "rank of the position part Ĵ."),
-        _tip_above_base(), "number", rank_29, _rank, rows=("rank",),
+        tr_later(
+            "With the tip on the base axis the waist does not move it; that is reachable within the limits. Shown: "
+            "the rank of the position part Ĵ."
+        ),
+        _tip_above_base(),
+        "number",
+        rank_29,
+        _rank,
+        rows=(tr_later("rank"),),
     ),
     Erratum(
-        "000-31", "000", "(31)", "rv-m1", "singularity", tr_later("A stop of joint 2 taken for a singularity"),
-        (r"\theta_2 = -\frac{\pi}{6} \;\wedge\; \theta_4 = \frac{\pi}{2}",), (r"\sigma_{min}(J_v) > 0",),
-        tr_later("Joint 2 is at its stop there: a barrier of the reach, but no column of Ĵ depends on the others. "
-                 "Shown: the "
-        "rank of the position part Ĵ."),
-        degrees(0, -30, -60, 0, 0), "number", rank_31, _rank, rows=("rank",),
+        "000-31",
+        "000",
+        "(31)",
+        "rv-m1",
+        "singularity",
+        tr_later("A stop of joint 2 taken for a singularity"),
+        (r"\theta_2 = -\frac{\pi}{6} \;\wedge\; \theta_4 = \frac{\pi}{2}",),
+        (r"\sigma_{min}(J_v) > 0",),
+        tr_later(
+            "Joint 2 is at its stop there: a barrier of the reach, but no column of Ĵ depends on the others. Shown: "
+            "the rank of the position part Ĵ."
+        ),
+        degrees(0, -30, -60, 0, 0),
+        "number",
+        rank_31,
+        _rank,
+        rows=(tr_later("rank"),),
     ),
-)  # fmt: skip
+)
 
 ERRATA_000_MOTION = (*_INVERSE, *_JACOBIAN, *_SINGULARITIES)

@@ -115,83 +115,175 @@ def _end_acceleration(_robot: Robot, q: FloatArray) -> float:
 
 _JACOBIAN = (
     Erratum(
-        "004-4.6", "004", "(4.6)", "al5b", "jacobian", tr_later("Two names exchanged"),
+        "004-4.6",
+        "004",
+        "(4.6)",
+        "al5b",
+        "jacobian",
+        tr_later("Two names exchanged"),
         (r"J_{vi}:\; \mathrm{angular},\quad J_{wi}:\; \mathrm{linear}",),
         (r"J_{vi}:\; \mathrm{linear},\quad J_{wi}:\; \mathrm{angular}",),
-        tr_later("The sentence below the formulas calls J_v the angular and J_w the linear velocity; the formulas "
-                 "mean the "
-        "opposite."),
+        tr_later(
+            "The sentence below the formulas calls J_v the angular and J_w the linear velocity; the formulas mean "
+            "the opposite."
+        ),
         TEXT_POSE,
     ),
     Erratum(
-        "004-4.7", "004", "(4.7)", "al5b", "jacobian", tr_later("Every column one joint too early"),
-        (r"J = \begin{bmatrix} z_0 \times (o_5 - o_0) & \cdots & z_4 \times (o_5 - o_4) \\ z_0 & \cdots & z_4 "
-         r"\end{bmatrix}",),
-        (r"J = \begin{bmatrix} z_1 \times (o_5 - o_1) & \cdots & z_5 \times (o_5 - o_5) \\ z_1 & \cdots & z_5 "
-         r"\end{bmatrix}",),
-        tr_later("In the modified convention joint i turns about z_i; as printed joint 1 appears twice and the roll "
-                 "is missing."),
-        TEXT_POSE, "jacobian", columns_4_7, jacobian, rows=_AXES, columns=_JOINTS,
+        "004-4.7",
+        "004",
+        "(4.7)",
+        "al5b",
+        "jacobian",
+        tr_later("Every column one joint too early"),
+        (
+            r"J = \begin{bmatrix} z_0 \times (o_5 - o_0) & \cdots & z_4 \times (o_5 - o_4) \\ z_0 & \cdots & z_4 "
+            r"\end{bmatrix}",
+        ),
+        (
+            r"J = \begin{bmatrix} z_1 \times (o_5 - o_1) & \cdots & z_5 \times (o_5 - o_5) \\ z_1 & \cdots & z_5 "
+            r"\end{bmatrix}",
+        ),
+        tr_later(
+            "In the modified convention joint i turns about z_i; as printed joint 1 appears twice and the roll is "
+            "missing."
+        ),
+        TEXT_POSE,
+        "jacobian",
+        columns_4_7,
+        jacobian,
+        rows=_AXES,
+        columns=_JOINTS,
     ),
     Erratum(
-        "004-4.8", "004", "(4.8), o₃", "al5b", "jacobian", tr_later("A sine of the waist twice"),
-        (r"o_{3y} = c_1 s_1 a_3",), (r"o_{3y} = s_1 c_2 a_3",),
+        "004-4.8",
+        "004",
+        "(4.8), o₃",
+        "al5b",
+        "jacobian",
+        tr_later("A sine of the waist twice"),
+        (r"o_{3y} = c_1 s_1 a_3",),
+        (r"o_{3y} = s_1 c_2 a_3",),
         tr_later("How far out the elbow is depends on the shoulder: a₃c₂, turned by the waist."),
-        TEXT_POSE, "length", origin_4_8, lambda robot, q: link_transforms(robot, q)[3, :3, 3], rows=("x", "y", "z"),
+        TEXT_POSE,
+        "length",
+        origin_4_8,
+        lambda robot, q: link_transforms(robot, q)[3, :3, 3],
+        rows=("x", "y", "z"),
     ),
     Erratum(
-        "004-4.9", "004", "(4.9), z₅", "al5b", "jacobian", tr_later("The tool's axis turned upside down"),
-        (r"z_5 = (c_1 c_{234},\, s_1 c_{234},\, {-}s_{234})",), (r"z_5 = (c_1 c_{234},\, s_1 c_{234},\, s_{234})",),
+        "004-4.9",
+        "004",
+        "(4.9), z₅",
+        "al5b",
+        "jacobian",
+        tr_later("The tool's axis turned upside down"),
+        (r"z_5 = (c_1 c_{234},\, s_1 c_{234},\, {-}s_{234})",),
+        (r"z_5 = (c_1 c_{234},\, s_1 c_{234},\, s_{234})",),
         tr_later("The height of (4.8) grows with s₂₃₄, and z₅ points from the wrist to the tool."),
-        TEXT_POSE, "number", axis_4_9, lambda robot, q: forward_kinematics(robot, q)[:3, 2], rows=("x", "y", "z"),
+        TEXT_POSE,
+        "number",
+        axis_4_9,
+        lambda robot, q: forward_kinematics(robot, q)[:3, 2],
+        rows=("x", "y", "z"),
     ),
     Erratum(
-        "004-4.11", "004", "(4.11) and (4.12)", "al5b", "jacobian", tr_later("A column of five entries"),
-        (r"J_1 = (-s_1 \rho,\; 0,\; 0,\; 0,\; 1)^T",), (r"J_1 = (-s_1 \rho,\; c_1 \rho,\; 0,\; 0,\; 0,\; 1)^T",
-         r"\rho = a_3 c_2 + a_4 c_{23} + d_5 c_{234}"),
+        "004-4.11",
+        "004",
+        tr_later("(4.11) and (4.12)"),
+        "al5b",
+        "jacobian",
+        tr_later("A column of five entries"),
+        (r"J_1 = (-s_1 \rho,\; 0,\; 0,\; 0,\; 1)^T",),
+        (r"J_1 = (-s_1 \rho,\; c_1 \rho,\; 0,\; 0,\; 0,\; 1)^T", r"\rho = a_3 c_2 + a_4 c_{23} + d_5 c_{234}"),
         tr_later("The y entry is missing; the waist moves the tool along y as well."),
-        TEXT_POSE, "jacobian", column_4_11, lambda robot, q: jacobian(robot, q)[:, 0], rows=_AXES,
+        TEXT_POSE,
+        "jacobian",
+        column_4_11,
+        lambda robot, q: jacobian(robot, q)[:, 0],
+        rows=_AXES,
         undefined=tr_later("An entry is missing in the printed column."),
     ),
     Erratum(
-        "004-4.15", "004", "(4.15)", "al5b", "jacobian", tr_later("The roll's column is that of joint 4"),
-        (r"J_5 = z_4 \times (o_5 - o_4)",
-         r"J_5 = (-c_1 s_{234} d_5,\; {-}s_1 s_{234} d_5,\; c_{234} d_5,\; s_1,\; {-}c_1,\; 0)^T"),
+        "004-4.15",
+        "004",
+        "(4.15)",
+        "al5b",
+        "jacobian",
+        tr_later("The roll's column is that of joint 4"),
+        (
+            r"J_5 = z_4 \times (o_5 - o_4)",
+            r"J_5 = (-c_1 s_{234} d_5,\; {-}s_1 s_{234} d_5,\; c_{234} d_5,\; s_1,\; {-}c_1,\; 0)^T",
+        ),
         (r"J_5 = (0,\; 0,\; 0,\; z_5)^T",),
         tr_later("The roll turns about the tool's own axis and does not move its origin."),
-        TEXT_POSE, "jacobian", column_4_15, lambda robot, q: jacobian(robot, q)[:, 4], rows=_AXES,
+        TEXT_POSE,
+        "jacobian",
+        column_4_15,
+        lambda robot, q: jacobian(robot, q)[:, 4],
+        rows=_AXES,
     ),
-)  # fmt: skip
+)
 
 _OTHERS = (
     Erratum(
-        "004-4.16", "004", "(4.16) and (4.17)", "al5b", "singularity", tr_later("The determinant of a matrix that is "
-                                                                                "not square"),
-        (r"\det J = 0",), (r"\sqrt{\det(J^T J)} = \sigma_1 \sigma_2 \cdots \sigma_5 = 0",),
-        tr_later("A 6×5 matrix has no determinant and no four square blocks; its singular values tell what is lost. "
-                 "Shown: "
-        "manipulability, with metres."),
-        TEXT_POSE, "number", _no_determinant, _manipulability, rows=("w",),
+        "004-4.16",
+        "004",
+        tr_later("(4.16) and (4.17)"),
+        "al5b",
+        "singularity",
+        tr_later("The determinant of a matrix that is not square"),
+        (r"\det J = 0",),
+        (r"\sqrt{\det(J^T J)} = \sigma_1 \sigma_2 \cdots \sigma_5 = 0",),
+        tr_later(
+            "A 6×5 matrix has no determinant and no four square blocks; its singular values tell what is lost. "
+            "Shown: manipulability, with metres."
+        ),
+        TEXT_POSE,
+        "number",
+        _no_determinant,
+        _manipulability,
+        rows=("w",),
         undefined=tr_later("A 6×5 matrix has no determinant."),
     ),
     Erratum(
-        "004-4.24", "004", "(4.24) and (4.25)", "al5b", "dynamics", tr_later("A force in tool axes, a Jacobian in "
-                                                                             "base axes"),
+        "004-4.24",
+        "004",
+        tr_later("(4.24) and (4.25)"),
+        "al5b",
+        "dynamics",
+        tr_later("A force in tool axes, a Jacobian in base axes"),
         (r"\tau = J^T F_{tool}",),
         (r"\tau = J^T \begin{bmatrix} R & 0 \\ 0 & R \end{bmatrix} F_{tool}",),
-        tr_later("Force and Jacobian must be written in the same axes; R is the tool's rotation. Shown: the joint "
-                 "torques for "
-        "10 N along the tool."),
-        TEXT_POSE, "torque", torques_4_24, _torques, rows=_JOINTS,
+        tr_later(
+            "Force and Jacobian must be written in the same axes; R is the tool's rotation. Shown: the joint "
+            "torques for 10 N along the tool."
+        ),
+        TEXT_POSE,
+        "torque",
+        torques_4_24,
+        _torques,
+        rows=_JOINTS,
     ),
     Erratum(
-        "004-5.22", "004", "(5.22)", "al5b", "time law", tr_later("Two entries of the quintic's matrix"),
-        (r"(5.22)_{24} = 3 t_0^3,\quad (5.22)_{63} = 0",), (r"(5.22)_{24} = 3 t_0^2,\quad (5.22)_{63} = 2",),
-        tr_later("Invisible for t₀ = 0. Shown: joint 1 from 0 to where it is, from t = 1 s to 3 s: its acceleration "
-                 "at the "
-        "end, which should be 0."),
-        degrees(40, 60, -70, -35, 40), "acceleration", end_acceleration_5_22, _end_acceleration, rows=("θ̈(3 s)",),
+        "004-5.22",
+        "004",
+        "(5.22)",
+        "al5b",
+        "time law",
+        tr_later("Two entries of the quintic's matrix"),
+        (r"(5.22)_{24} = 3 t_0^3,\quad (5.22)_{63} = 0",),
+        (r"(5.22)_{24} = 3 t_0^2,\quad (5.22)_{63} = 2",),
+        tr_later(
+            "Invisible for t₀ = 0. Shown: joint 1 from 0 to where it is, from t = 1 s to 3 s: its acceleration at "
+            "the end, which should be 0."
+        ),
+        degrees(40, 60, -70, -35, 40),
+        "acceleration",
+        end_acceleration_5_22,
+        _end_acceleration,
+        rows=("θ̈(3 s)",),
     ),
-)  # fmt: skip
+)
 
 ERRATA_004_MOTION = (*_JACOBIAN, *_OTHERS)
