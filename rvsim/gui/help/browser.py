@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from PySide6.QtCore import QUrl
@@ -30,14 +31,14 @@ class HelpBrowser(QTextBrowser):
         """The LaTeX of all formulas of the page, in their order."""
         return self._formulas
 
-    def show_markdown(self, source: str) -> None:
-        """Show a page."""
+    def show_markdown(self, source: str, slugs: Sequence[str] = ()) -> None:
+        """Show a page, whose headings have these anchors."""
         page = prepared(source)
         self._formulas = page.formulas
         self.document().clear()
         self.document().setDocumentMargin(_MARGIN)
         self.document().setMarkdown(page.markdown, QTextDocument.MarkdownFeature.MarkdownDialectGitHub)
-        dress(self.document(), self._look())
+        dress(self.document(), self._look(), slugs)
         self.document().size()  # lays all of it out: else there would be nowhere to scroll to yet
         self.moveCursor(QTextCursor.MoveOperation.Start)
 

@@ -12,7 +12,7 @@ or in a line between dollar signs: $\tau$.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from PySide6.QtCore import QRectF
@@ -137,11 +137,15 @@ def _pixels(font: QFont) -> float:
 # --- the text ------------------------------------------------------------------------------------------------------
 
 
-def dress(document: QTextDocument, look: Look) -> None:
-    """Give headings, paragraphs, formulas, code and tables their looks, and headings their anchors."""
+def dress(document: QTextDocument, look: Look, slugs: Sequence[str] = ()) -> None:
+    """Give headings, paragraphs, formulas, code and tables their looks, and headings their anchors: `slugs`, in order.
+
+    Headings for which there is no slug have one of their own words.
+    """
     document.setIndentWidth(_INDENT)
+    anchors = iter(slugs)
     for block in _blocks(document):
-        _dress_block(block, look)
+        _dress_block(block, look, anchors)
     for table in _tables(document.rootFrame()):
         _dress_table(table, look)
     for block in reversed([block for block in _blocks(document) if block.text().startswith(_TRY)]):
@@ -179,12 +183,12 @@ def _blocks(document: QTextDocument) -> Iterator[QTextBlock]:
         block = block.next()
 
 
-def _dress_block(block: QTextBlock, look: Look) -> None:
+def _dress_block(block: QTextBlock, look: Look, slugs: Iterator[str]) -> None:
     cursor, shape = QTextCursor(block), QTextBlockFormat(block.blockFormat())
     in_table = cursor.currentTable() is not None
     level = shape.headingLevel()
     if level:
-        _dress_heading(block, level)
+        _dress_heading(block, level, next(slugs, slug_of(block.text())))
         shape.setTopMargin(0.0 if level == 1 else 16.0)
         shape.setBottomMargin(6.0)
     elif shape.hasProperty(QTextFormat.Property.BlockCodeLanguage) or shape.hasProperty(
@@ -201,13 +205,13 @@ def _dress_block(block: QTextBlock, look: Look) -> None:
     _dress_pictures(block, alone=not in_table)
 
 
-def _dress_heading(block: QTextBlock, level: int) -> None:
+def _dress_heading(block: QTextBlock, level: int, slug: str) -> None:
     cursor = QTextCursor(block)
     letters = QTextCharFormat()
     letters.setProperty(QTextFormat.Property.FontSizeAdjustment, _LARGER.get(level, 0))
     letters.setFontWeight(QFont.Weight.DemiBold)
     letters.setAnchor(True)
-    letters.setAnchorNames([slug_of(block.text())])
+    letters.setAnchorNames([slug])
     cursor.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)
     cursor.mergeCharFormat(letters)
 

@@ -62,7 +62,7 @@ def follow(window: MainWindow, link: str) -> Done:
     """
     parts = urlsplit(link)
     verb, _, subject = parts.path.partition("/")
-    one_of(tr("kind of link"), parts.scheme, (SCHEME,))
+    one_of("kind of link", parts.scheme, (SCHEME,))
     one_of("verb", verb, tuple(VERBS))
     return VERBS[verb](window, unquote(subject), dict(parse_qsl(parts.query)))
 
@@ -111,10 +111,8 @@ def _set_up(window: MainWindow, wishes: dict[str, str]) -> None:
 def _source(window: MainWindow, key: str, _wishes: dict[str, str]) -> Done:
     experiment = experiment_of(key)
     show_experiment(window, experiment)
-    return Done(
-        tr("Source {source}, {item}: {shows}", source=experiment.source, item=experiment.item, shows=experiment.shows),
-        undoable=True,
-    )
+    item, shows = tr(experiment.item), tr(experiment.shows)
+    return Done(tr("Source {source}, {item}: {shows}", source=experiment.source, item=item, shows=shows), undoable=True)
 
 
 def _open(window: MainWindow, name: str, _wishes: dict[str, str]) -> Done:
@@ -135,7 +133,7 @@ def _point(window: MainWindow, name: str, _wishes: dict[str, str]) -> Done:
 def _child(window: MainWindow, name: str) -> QWidget:
     widget = window.findChild(QWidget, name)
     if not isinstance(widget, QWidget):
-        raise UnknownNameError("control", name, (tr("those of the window"),))
+        raise UnknownNameError("control", name, ("those of the window",))
     return widget
 
 
@@ -169,7 +167,7 @@ def _track(window: MainWindow, kind: str) -> None:
 
 
 def _curves(window: MainWindow, names: str) -> None:
-    wanted = [tr("plot_{name}_button", name=name) for name in names.split(",")]
+    wanted = [f"plot_{name}_button" for name in names.split(",")]
     made = {one.objectName(): one for one in window.plots.findChildren(QToolButton) if one.isCheckable()}
     for name in wanted:
         one_of("curve", name, tuple(made))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 from rvsim.gui.formula import plain_text
@@ -51,14 +52,23 @@ def help_pages() -> dict[str, HelpPage]:
 
 @cache
 def _pages_in(code: str) -> dict[str, HelpPage]:
-    english, translated = sorted(resource("help").glob("*.md")), resource("help", code)
-    files = [own if (own := translated / file.name).is_file() else file for file in english]
-    return {file.stem: _page(file.stem, file.read_text(encoding="utf-8")) for file in files}
+    pages = {file.stem: _page(file) for file in sorted(resource("help").glob("*.md"))}
+    own = {file.stem: _page(file) for file in sorted(resource("help", code).glob("*.md"))}
+    return {name: _with_anchors(own[name], page) if name in own else page for name, page in pages.items()}
 
 
-def _page(name: str, source: str) -> HelpPage:
+def _page(file: Path) -> HelpPage:
+    name, source = file.stem, file.read_text(encoding="utf-8")
     sections = tuple(_sections(name, source))
     return HelpPage(name, sections[0].title if sections else name, source, sections)
+
+
+def _with_anchors(page: HelpPage, english: HelpPage) -> HelpPage:
+    """A translated page with the anchors of the English one, to which the links lead, where their headings match."""
+    if len(page.sections) != len(english.sections):
+        return page
+    pairs = zip(page.sections, english.sections, strict=True)
+    return page._replace(sections=tuple(section._replace(slug=known.slug) for section, known in pairs))
 
 
 def _sections(name: str, source: str) -> list[Section]:

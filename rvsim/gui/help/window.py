@@ -74,8 +74,9 @@ class HelpWindow(QWidget):
     # --- construction ------------------------------------------------------------------------------------------------
 
     def _make_bar(self) -> None:
-        self.back = _tool("help_back", "←", tr("Back (Alt+Left)"), self.go_back)
-        self.forward = _tool("help_forward", "→", tr("Forward (Alt+Right)"), self.go_forward)
+        signs = "←→" if self.layoutDirection() == Qt.LayoutDirection.LeftToRight else "→←"
+        self.back = _tool("help_back", signs[0], tr("Back (Alt+Left)"), self.go_back)
+        self.forward = _tool("help_forward", signs[1], tr("Forward (Alt+Right)"), self.go_forward)
         self.contents = _tool(
             "help_contents", tr("Contents"), tr("All pages (Alt+Home)"), lambda: self.show_page(INDEX)
         )
@@ -83,7 +84,7 @@ class HelpWindow(QWidget):
         self.words.setObjectName("help_search")
         self.words.setPlaceholderText(tr("Search all pages"))
         self.words.setAccessibleName(tr("Search all pages"))
-        self.words.setToolTip("Ctrl+F; Enter opens the first page that was found")
+        self.words.setToolTip(tr("Ctrl+F; Enter opens the first page that was found"))
         self.words.setClearButtonEnabled(True)
         self.words.textEdited.connect(self._on_words)
         self.words.returnPressed.connect(self._open_first)
@@ -169,7 +170,11 @@ class HelpWindow(QWidget):
 
     def _show(self) -> None:
         page, anchor, words = self.place
-        self.browser.show_markdown(help_pages()[page].source if page else _results(words))
+        if page:
+            shown = help_pages()[page]
+            self.browser.show_markdown(shown.source, [section.slug for section in shown.sections])
+        else:
+            self.browser.show_markdown(_results(words))
         self.browser.light(words if page else "")
         if anchor:
             self.browser.scrollToAnchor(anchor)

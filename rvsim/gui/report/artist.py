@@ -12,7 +12,6 @@ from PySide6.QtGui import QImage, QImageWriter, QPainterPath
 from rvsim.gui.formula import Pieces, pieces, plain_text
 from rvsim.gui.renderers.painter import scene_image
 from rvsim.lab.report.values import ScenePicture
-from rvsim.language import tr
 
 _ELEMENTS = QPainterPath.ElementType
 _SHARPER = 2.2  # pixels of a picture for one that is asked for
@@ -45,9 +44,7 @@ class PageArtist:
             if id(outline) not in names:
                 names[id(outline)] = f"f{self._count}g{len(names)}"
                 outlines.append(f'<path id="{names[id(outline)]}" d="{path_data(outline)}"/>')
-            place = tr(
-                "matrix({m11:.4g} 0 0 {m22:.4g} {dx:.2f} {dy:.2f})", m11=at.m11(), m22=at.m22(), dx=at.dx(), dy=at.dy()
-            )
+            place = f"matrix({at.m11():.4g} 0 0 {at.m22():.4g} {at.dx():.2f} {at.dy():.2f})"
             letters.append(f'<use href="#{names[id(outline)]}" transform="{place}"/>')
         rules = (
             f'<rect x="{rule.x():.2f}" y="{rule.y():.2f}" width="{rule.width():.2f}" height="{rule.height():.2f}"/>'
@@ -57,7 +54,7 @@ class PageArtist:
 
     def picture(self, picture: ScenePicture) -> str:
         """A PNG as a data URI."""
-        return tr("data:image/png;base64,{decode}", decode=b64encode(png(painted(picture))).decode())
+        return f"data:image/png;base64,{b64encode(png(painted(picture))).decode()}"
 
 
 @lru_cache(maxsize=8)

@@ -10,6 +10,7 @@ from rvsim.gui.document_state import state_of
 from rvsim.gui.quantities import shown_units
 from rvsim.gui.report.dialog import ReportDialog
 from rvsim.lab.report import Study
+from rvsim.language import tr
 from rvsim.playback.recording import Recording
 
 if TYPE_CHECKING:
@@ -54,4 +55,4 @@ def _measured(recording: Recording | None) -> str:
         return ""
     from rvsim.device.driver.state import MEASURED_WORDS
 
-    return MEASURED_WORDS[cast("MeasuredKind", recording.kind)]
+    return tr(MEASURED_WORDS[cast("MeasuredKind", recording.kind)])

@@ -166,9 +166,9 @@ def _files(study: Study, order: Order) -> dict[str, _File]:
         )
     if recording is not None and not recording.empty:
         table = recording_csv(study.robot, recording)
-        found["measured.csv"] = _File(
-            tr("what was desired, commanded and {back}", back=recording.back_word), table.encode
-        )
+        measured = tr("what was desired, commanded and measured")
+        reported = tr("what was desired, commanded and reported")
+        found["measured.csv"] = _File(measured if recording.is_measured else reported, table.encode)
     session = order.session
     if session is not None:
         found["experiment.rvsim"] = _File(tr("the experiment itself, for rvsim to open"), lambda: session)

@@ -32,7 +32,7 @@ from rvsim.gui.text_box import TextBox
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, form
 from rvsim.lab.report import PARTS, Cover, Study, parts_of, title_of
-from rvsim.language import tr, tr_later
+from rvsim.language import language, tr, tr_later, without_isolates
 
 _LONGEST_LINE = 1000  # characters of a line of the cover, or of a folder
 _MISSING = {
@@ -70,8 +70,7 @@ class ReportDialog(QDialog):
         self.title_box = _line("report_title", tr("Title"), title_of(self._study))
         self.name_box = _line("report_name", tr("Your name"), notes.student or str(self._preferences["student"]))
         self.name_box.setPlaceholderText(tr("Your name"))
-        today = QLocale(QLocale.Language.English).toString(QDate.currentDate(), tr("d MMMM yyyy"))
-        self.date_box = _line("report_date", tr("Date"), today)
+        self.date_box = _line("report_date", tr("Date"), _written(QDate.currentDate()))
         self.notes_box = TextBox(notes.text)
         self.notes_box.setObjectName("report_notes")
         self.notes_box.setAccessibleName(tr("Notes"))
@@ -84,11 +83,11 @@ class ReportDialog(QDialog):
         there = parts_of(self._study)
         self.parts: dict[str, QCheckBox] = {}
         for part in PARTS:
-            box = QCheckBox(part.title)
+            box = QCheckBox(tr(part.title))
             box.setObjectName(f"report_part_{part.name}")
             box.setChecked(part.name in there)
             box.setEnabled(part.name in there)
-            box.setToolTip("" if part.name in there else _MISSING.get(part.name, ""))
+            box.setToolTip("" if part.name in there else tr(_MISSING.get(part.name, "")))
             self.parts[part.name] = box
         self.animation = QCheckBox(tr("Animation of the motion (GIF)"))
         self.animation.setObjectName("report_animation")
@@ -215,7 +214,7 @@ class ReportDialog(QDialog):
             progress = next(self._work, None)
         except RvsimError as problem:
             self._stop()
-            self._tell(tr("Not made. {problem}", problem=problem), "error")
+            self._tell(f"{tr('Not made.')} {problem}", "error")
             return
         if progress is None:
             self._stop()
@@ -226,9 +225,10 @@ class ReportDialog(QDialog):
 
     def _tell_done(self) -> None:
         assert self._done is not None, "something was begun"
-        archive = tr(" and {name}", name=zip_of(self._done).name) if self.zipped.isChecked() else ""
-        self._tell(tr("Made: {done}{archive}.", done=self._done, archive=archive), "muted")
-        self._session.say(tr("Saved the report in {done}.", done=self._done))
+        folder = self._done
+        archive = tr("Made: {folder} and {archive}.", folder=folder, archive=zip_of(folder).name)
+        self._tell(archive if self.zipped.isChecked() else tr("Made: {folder}.", folder=folder), "muted")
+        self._session.say(tr("Saved the report in {folder}.", folder=folder))
         self.open_button.setVisible(True)
         self.folder_box.setText(str(free_folder(self._done.parent, self._done.name)))  # for the next one
 
@@ -254,6 +254,12 @@ class ReportDialog(QDialog):
         if self._work is not None:
             self._stop()
         super().closeEvent(event)
+
+
+def _written(day: QDate) -> str:
+    """A date in words, for instance "3 May 2026"."""
+    month = QLocale(language().code).monthName(day.month())
+    return without_isolates(tr("{day} {month} {year}", day=day.day(), month=month, year=day.year()))
 
 
 def _line(name: str, title: str, text: str) -> QLineEdit:
