@@ -24,6 +24,11 @@ _LEVELS: dict[Phase, str] = {
 LANGUAGE_WORDS = {"ssc32": tr_later("SSC-32, SSC-32U"), "bridge": tr_later("Encoder bridge")}
 
 
+def baud_words(rate: int) -> str:
+    """How fast a wire is [bit/s]."""
+    return tr("{rate} baud", rate=rate)
+
+
 def phase_words(state: DriverState | None, title: str) -> str:
     """A line for the panel and the status bar: "Virtual AL5B: ready"."""
     if state is None:
@@ -31,7 +36,7 @@ def phase_words(state: DriverState | None, title: str) -> str:
     words = tr(_WORDS[state.phase])
     if state.phase == "running":
         words = tr("Running, {time:.1f} of {duration:.1f} s", time=state.time, duration=state.duration)
-    return f"{tr(title)}: {words}" if title else words
+    return tr("{arm}: {state}", arm=tr(title), state=words) if title else words
 
 
 def phase_level(phase: str) -> str:

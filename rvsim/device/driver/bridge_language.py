@@ -46,7 +46,7 @@ class BridgeLanguage:
         robot: the arm; where it has servos their limits count as well.
     """
 
-    title = tr_later("Encoder bridge")
+    title = "Encoder bridge"
     named_answers = gentle = True
 
     def __init__(self, robot: Robot) -> None:

@@ -11,7 +11,7 @@ from rvsim.device.driver.state import DriverState
 from rvsim.experiment import Experiment
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.panels.device_calibrate_automatic import AutomaticSection
-from rvsim.gui.panels.device_calibrate_cells import Wiring, wiring_of
+from rvsim.gui.panels.device_calibrate_cells import CALIBRATED, Wiring, wiring_of
 from rvsim.gui.panels.device_calibrate_flow import at_part, left_over, skipped, with_ends
 from rvsim.gui.panels.device_calibrate_jog import Jog, Part
 from rvsim.gui.panels.device_calibrate_results import ResultsSection
@@ -176,12 +176,13 @@ class CalibratePage(InspectPage):
         """Why nothing can be calibrated now, or ""."""
         driver, robot = self._device.driver, self._session.robot
         if not robot.servos:
-            return _NO_SERVOS.format(arm=robot.title)
+            return tr(_NO_SERVOS, arm=robot.title)
         if driver is not None and driver.language == "bridge":
-            return _BRIDGE
+            return tr(_BRIDGE)
         if state is None or state.phase in ("disconnected", "connecting"):
-            return _CONNECT
-        return {"lost": _LOST, "stopped": _STOPPED}.get(state.phase, "")
+            return tr(_CONNECT)
+        words = {"lost": _LOST, "stopped": _STOPPED}.get(state.phase)
+        return tr(words) if words else ""
 
     def _show_wake(self, state: DriverState | None) -> None:
         if state is None:
@@ -258,7 +259,7 @@ class CalibratePage(InspectPage):
             return
         pulse = self._jog.pulse(wizard.step.joint)
         if state.busy or math.isnan(pulse):
-            self.step.show_problem(_STILL_MOVING)
+            self.step.show_problem(tr(_STILL_MOVING))
             return
         self._answer(lambda wizard: wizard.mark(pulse))
 
@@ -266,7 +267,7 @@ class CalibratePage(InspectPage):
         wizard, before = self._wizard, self._basis
         if wizard is None:
             return
-        found = wizard.calibration(tr("calibrated on {today}", today=today()))
+        found = wizard.calibration(CALIBRATED.format(date=today()))
         left = left_over(wizard)
         self._basis, self._taken = (found.servos, found.gripper_servo), True
         self._device.use_servos(found.servos, found.gripper_servo, tr("Take the calibration"))

@@ -70,7 +70,7 @@ class AutomaticSection(QGroupBox):
         words = self._words(state) if ready else ""
         self.setVisible(bool(words) or running)
         able = words in (_VIRTUAL, _ENCODERS)
-        self.about.setText(f"{words} {self._duration(wizard)}".rstrip() if able else words)
+        self.about.setText(f"{tr(words)} {self._duration(wizard)}".rstrip() if able else tr(words) if words else "")
         self.begin.setVisible(able and not running)
         self.cancel.setVisible(running)
         self.progress.setVisible(running)
@@ -113,5 +113,6 @@ def _duration_words(seconds: float) -> str:
     if not seconds:
         return ""
     minutes = round(seconds / 60.0)
-    rounded = tr("{minutes} min", minutes=minutes) if minutes > 1 else f"{max(round(seconds, -1), 10):.0f} s"
-    return tr("It takes about {rounded}.", rounded=rounded).replace(" min", "\u00a0min").replace(" s.", "\u00a0s.")
+    if minutes > 1:
+        return tr("It takes about {minutes}\u00a0min.", minutes=minutes)
+    return tr("It takes about {seconds:.0f}\u00a0s.", seconds=max(round(seconds, -1), 10))

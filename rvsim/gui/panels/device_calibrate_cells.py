@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
+from rvsim.device.words import in_a_row, with_capital
 from rvsim.errors import RobotDefinitionError
 from rvsim.expressions import evaluate
 from rvsim.gui.quantities import format_number
@@ -14,8 +15,9 @@ from rvsim.language import tr, tr_later
 from rvsim.robot import GripperServo, Robot, Servo
 
 _PLUS_MINUS = {1: "+", -1: "\u2212"}
+# Robot files keep these as they are; `origin` says them in the language.
+CALIBRATED, _TYPED = tr_later("calibrated on {date}"), tr_later("typed in on {date}")
 _SIGNS = {"+": 1, "+1": 1, "1": 1, "-": -1, "-1": -1}
-_GRIPPER = "gripper"
 
 
 class Column(NamedTuple):
@@ -28,17 +30,17 @@ class Column(NamedTuple):
 
 
 SERVO_COLUMNS = (
-    Column("channel", "ch", tr_later("Channel of the controller, 0 to 31")),
+    Column("channel", tr_later("ch"), tr_later("Channel of the controller, 0 to 31")),
     Column("sign", "±", tr_later("+ where a longer pulse means a larger angle, − where it means a smaller one")),
-    Column("zero_us", "zero", tr_later("Pulse at the joint's zero [µs]; the servo need not reach it"), 1),
+    Column("zero_us", tr_later("zero"), tr_later("Pulse at the joint's zero [µs]; the servo need not reach it"), 1),
     Column("scale", "µs/°", tr_later("How many µs turn the joint by 1° (µs/mm where it slides)"), 2),
-    Column("min_us", "min", tr_later("The shortest pulse that the servo may get [µs]")),
-    Column("max_us", "max", tr_later("The longest pulse that the servo may get [µs]")),
+    Column("min_us", tr_later("min"), tr_later("The shortest pulse that the servo may get [µs]")),
+    Column("max_us", tr_later("max"), tr_later("The longest pulse that the servo may get [µs]")),
 )
 GRIPPER_COLUMNS = (
-    Column("channel", "ch", tr_later("Channel of the controller, 0 to 31")),
-    Column("open_us", "open", tr_later("Pulse at which the gripper is open [µs]")),
-    Column("closed_us", "closed", tr_later("Pulse at which the gripper is closed [µs]")),
+    Column("channel", tr_later("ch"), tr_later("Channel of the controller, 0 to 31")),
+    Column("open_us", tr_later("open"), tr_later("Pulse at which the gripper is open [µs]")),
+    Column("closed_us", tr_later("closed"), tr_later("Pulse at which the gripper is closed [µs]")),
 )
 Wiring = tuple[tuple[Servo, ...], GripperServo | None]
 
@@ -114,10 +116,10 @@ def swapped_channels(robot: Robot, first: int, second: int) -> Wiring:
 
 
 def on_channel(robot: Robot, channel: int) -> str:
-    """What hangs on a channel, or ""."""
+    """What hangs on a channel, as it is called in the robot's file, or ""."""
     names = {servo.channel: name for servo, name in zip(robot.servos, robot.joint_names, strict=False)}
     if robot.gripper_servo is not None:
-        names[robot.gripper_servo.channel] = _GRIPPER
+        names[robot.gripper_servo.channel] = "gripper"
     return names.get(channel, "")
 
 
@@ -125,26 +127,33 @@ def origins(robot: Robot) -> tuple[str, ...]:
     """A sentence for each place that numbers come from: which servos, and whether that is assumed."""
     groups: dict[tuple[bool, str], list[str]] = {}
     for name, servo in zip(robot.joint_names, robot.servos, strict=False):  # an arm may have no servos
-        groups.setdefault((servo.assumed, servo.source), []).append(name)
+        groups.setdefault((servo.assumed, servo.source), []).append(tr(name))
     gripper = robot.gripper_servo
     if gripper is not None:
-        groups.setdefault((gripper.assumed, gripper.source), []).append(_GRIPPER)
-    return tuple(f"{_listed(names)}: {origin(*key)}." for key, names in groups.items())
+        groups.setdefault((gripper.assumed, gripper.source), []).append(tr("gripper"))
+    return tuple(
+        tr("{joints}: {origin}.", joints=with_capital(in_a_row(names)), origin=origin(*key))
+        for key, names in groups.items()
+    )
 
 
 def origin(assumed: bool, source: str) -> str:
     """Where a servo's numbers come from, in words."""
-    words = source or tr("its robot file")
-    return tr("assumed ({words})", words=words) if assumed else words
+    words = _said(source) if source else tr("its robot file")
+    return tr("assumed ({origin})", origin=words) if assumed else words
 
 
-def _listed(names: list[str]) -> str:
-    text = ", ".join(names)
-    return text[:1].upper() + text[1:]
+def _said(source: str) -> str:
+    """What a robot file says in English, where it comes from here."""
+    for known in (CALIBRATED, _TYPED):
+        before = known.removesuffix("{date}")
+        if source.startswith(before):
+            return tr(known, date=source.removeprefix(before))
+    return tr(source)
 
 
 def _by_hand(today: str) -> str:
-    return tr("typed in on {today}", today=today)
+    return _TYPED.format(date=today)
 
 
 def _per_shown_unit(robot: Robot, joint: int) -> float:
@@ -159,14 +168,14 @@ def _typed(key: str, text: str) -> float:
 
 def _sign(text: str) -> int:
     if text not in _SIGNS:
-        raise RobotDefinitionError("sign", tr("{text!r} is none: type + or -.", text=text))
+        raise RobotDefinitionError("sign", tr("{typed!r} is none: type + or -.", typed=text))
     return _SIGNS[text]
 
 
 def _channel(text: str) -> int:
     number = _number(text)
     if number != round(number):
-        raise RobotDefinitionError("channel", tr("{text} is none: they are whole numbers, 0 to 31.", text=text))
+        raise RobotDefinitionError("channel", tr("{typed} is none: they are whole numbers, 0 to 31.", typed=text))
     return round(number)
 
 

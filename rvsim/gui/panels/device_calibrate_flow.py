@@ -7,9 +7,10 @@ from dataclasses import replace
 
 from rvsim.device.calibrate import CalibrationWizard, Fit, Mark, Result, Step
 from rvsim.device.calibration.steps import ENDS, GRIPPER_STAGES, POSES
+from rvsim.device.words import axis_name
 from rvsim.gui.panels.device_calibrate_jog import Part, pulse_for
 from rvsim.gui.quantities import format_number
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot import GripperServo, Robot, Servo
 
 _PLUS_MINUS = {1: "+", -1: "\u2212"}
@@ -17,7 +18,7 @@ _PLUS_MINUS = {1: "+", -1: "\u2212"}
 
 def part_title(robot: Robot, part: Part) -> str:
     """ "J2 shoulder", or "gripper"."""
-    return "gripper" if part is None else f"J{part + 1} {robot.joint_names[part]}"
+    return tr("gripper") if part is None else f"J{part + 1} {axis_name(robot, part)}"
 
 
 def found_parts(wizard: CalibrationWizard) -> tuple[Part, ...]:
@@ -45,15 +46,13 @@ def where_words(wizard: CalibrationWizard) -> str:
         return ""
     stages = GRIPPER_STAGES if step.joint is None else POSES + (ENDS if wizard.ends else ())
     part = wizard.parts.index(step.joint) + 1
-    name = tr("Joint") if step.joint is not None else tr("Gripper,")
-    return tr(
-        "{name} {part} of {count}, step {index} of {count2}",
-        name=name,
-        part=part,
-        count=len(wizard.parts),
-        index=stages.index(step.stage) + 1,
-        count2=len(stages),
+    whole = (
+        tr_later("Joint {part} of {parts}, step {step} of {steps}")
+        if step.joint is not None
+        else tr_later("Gripper, {part} of {parts}, step {step} of {steps}")
     )
+    step_number = stages.index(step.stage) + 1
+    return tr(whole, part=part, parts=len(wizard.parts), step=step_number, steps=len(stages))
 
 
 def with_ends(wizard: CalibrationWizard, ends: bool) -> CalibrationWizard:
@@ -102,15 +101,16 @@ def result_rows(result: Result) -> tuple[tuple[str, ...], tuple[str, ...]]:
 def _numbers(result: Result, *, new: bool) -> tuple[str, ...]:
     servo = result.new if new else result.old
     if isinstance(servo, GripperServo):
-        return tr("open {open_us:.0f} µs", open_us=servo.open_us), tr(
-            "closed {closed_us:.0f} µs", closed_us=servo.closed_us
+        return (
+            tr("open {pulse:.0f} µs", pulse=servo.open_us),
+            tr("closed {pulse:.0f} µs", pulse=servo.closed_us),
         )
     per_step = next(change for change in result.changes if "/" in change.unit)
     return (
         _PLUS_MINUS[servo.sign],
-        format_number(per_step.new if new else per_step.old, 2),
-        format_number(servo.zero_us, 0),
-        _range(servo),
+        left_to_right(format_number(per_step.new if new else per_step.old, 2)),
+        left_to_right(format_number(servo.zero_us, 0)),
+        left_to_right(_range(servo)),
     )
 
 

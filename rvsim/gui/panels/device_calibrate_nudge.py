@@ -9,11 +9,19 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QSpinBox, QWidget
 
 from rvsim.gui.quantities import format_number
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 from rvsim.robot.servo import LONGEST_US, SHORTEST_US
 
 _STEPS = (-10, -1, 1, 10)
 _ARROWS = {Qt.Key.Key_Left: -1, Qt.Key.Key_Down: -1, Qt.Key.Key_Right: 1, Qt.Key.Key_Up: 1}
+_LONGER = (
+    tr_later("{step} µs longer"),
+    tr_later("A pulse {step} µs longer; hold the button to go on. Arrow keys: 1 µs, with Shift 10 µs"),
+)
+_SHORTER = (
+    tr_later("{step} µs shorter"),
+    tr_later("A pulse {step} µs shorter; hold the button to go on. Arrow keys: 1 µs, with Shift 10 µs"),
+)
 _DELAY_MS, _REPEAT_MS = 350, 100
 
 
@@ -32,6 +40,7 @@ class NudgeRow(QWidget):
         )
         self.box.setRange(round(SHORTEST_US), round(LONGEST_US))
         self.box.setSuffix(" µs")
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # shorter at the left, as on a scale
         self.box.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.box.setKeyboardTracking(False)
         self.box.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -47,15 +56,9 @@ class NudgeRow(QWidget):
     def _button(self, step: int) -> QPushButton:
         made = _StepButton(format_number(step, 0) if step < 0 else f"+{step}")
         made.setObjectName(f"calibrate_{'minus' if step < 0 else 'plus'}_{abs(step)}")
-        way = "longer" if step > 0 else "shorter"
-        made.setAccessibleName(f"{abs(step)} µs {way}")
-        made.setToolTip(
-            tr(
-                "A pulse {step} µs {way}; hold the button to go on. Arrow keys: 1 µs, with Shift 10 µs",
-                step=abs(step),
-                way=way,
-            )
-        )
+        name, tip = _LONGER if step > 0 else _SHORTER
+        made.setAccessibleName(tr(name, step=abs(step)))
+        made.setToolTip(tr(tip, step=abs(step)))
         made.setAutoDefault(False)
         made.setAutoRepeat(True)
         made.setAutoRepeatDelay(_DELAY_MS)

@@ -17,7 +17,7 @@ from rvsim.gui.widgets import button
 from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
-_HEADS = ("±", "µs/°", "zero µs", "range µs")
+_HEADS = ("±", "µs/°", tr_later("zero µs"), tr_later("range µs"))
 _TAKEN = tr_later(
     "Taken: the window and the arm use it from now on, and undo takes it back. Save the arm as a robot file to keep "
     "it for the next time."
@@ -34,12 +34,12 @@ class ResultsSection(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.head, self.table = wrapped_label("title"), wrapped_label()
-        self.head.setText(_FOUND)
+        self.head.setText(tr(_FOUND))
         self.table.setObjectName("calibrate_results")
         self.remarks, self.taken = wrapped_label(), wrapped_label()
         self.remarks.setObjectName("calibrate_remarks")
         self.taken.setObjectName("calibrate_taken")
-        self.taken.setText(_TAKEN)
+        self.taken.setText(tr(_TAKEN))
         set_role(self.remarks, level="warning")
         set_role(self.taken, level="good")
         self.take = button(
@@ -74,14 +74,15 @@ class ResultsSection(QWidget):
 
 
 def _html(robot: Robot, results: Sequence[Result], muted: str) -> str:
-    heads = "".join(f"<td align='right'>{head}</td>" for head in _HEADS)
+    heads = "".join(f"<td align='right'>{escape(tr(head))}</td>" for head in _HEADS)
     rows = "".join(_rows(part_title(robot, result.joint), result, muted) for result in results)
     return f"<table width='100%' cellpadding='2'><tr style='color:{muted}'><td></td>{heads}</tr>{rows}</table>"
 
 
 def _rows(title: str, result: Result, muted: str) -> str:
     now, was = (_cells(row) for row in result_rows(result))
-    return f"<tr><td><b>{escape(title)}</b></td>{now}</tr><tr style='color:{muted}'><td>was</td>{was}</tr>"
+    before = escape(tr("was"))
+    return f"<tr><td><b>{escape(title)}</b></td>{now}</tr><tr style='color:{muted}'><td>{before}</td>{was}</tr>"
 
 
 def _cells(row: Sequence[str]) -> str:

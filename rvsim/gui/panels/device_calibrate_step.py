@@ -29,9 +29,13 @@ _MARK_TIP, _WAIT_TIP = (
 )
 _DONE = tr_later("All is marked. Take the calibration below, or choose a joint to do it again.")
 _MARKS = {
-    "first pose": tr_later("Mark first pose"), "second pose": tr_later("Mark second pose"), "open": tr_later("Mark open"), "closed": tr_later("Mark closed"),
-    "least end": tr_later("Mark this end"), "largest end": tr_later("Mark this end"),
-}  # fmt: skip
+    "first pose": tr_later("Mark first pose"),
+    "second pose": tr_later("Mark second pose"),
+    "open": tr_later("Mark open"),
+    "closed": tr_later("Mark closed"),
+    "least end": tr_later("Mark this end"),
+    "largest end": tr_later("Mark this end"),
+}
 _SKIPS = {"least end": tr_later("Skip both ends"), "largest end": tr_later("Skip this end")}
 
 
@@ -64,9 +68,9 @@ class StepSection(QWidget):
         self.where, self.virtual = wrapped_label("muted"), wrapped_label("muted")
         self.where.setObjectName("calibrate_where")
         self.virtual.setObjectName("calibrate_virtual")
-        self.virtual.setText(_VIRTUAL)
+        self.virtual.setText(tr(_VIRTUAL))
         self.hint, self.problem = wrapped_label("muted"), wrapped_label()
-        self.hint.setText(_HINT)
+        self.hint.setText(tr(_HINT))
         self.problem.setObjectName("calibrate_problem")
         set_role(self.problem, level="error")
         self.progress = QProgressBar()
@@ -87,7 +91,7 @@ class StepSection(QWidget):
             "other way: keep clear, and a finger at Esc"), self.near_wanted.emit,
         )  # fmt: skip
         self.mark = button(
-            "calibrate_mark", tr("Mark"), _MARK_TIP, self.mark_wanted.emit,
+            "calibrate_mark", tr("Mark"), tr(_MARK_TIP), self.mark_wanted.emit,
             primary=True,
         )  # fmt: skip
         self.undo = button("calibrate_undo", tr("Undo mark"), tr("Back to the step before"), self.undo_wanted.emit)
@@ -132,7 +136,7 @@ class StepSection(QWidget):
         self.progress.setValue(round(wizard.progress * wizard.count))
         self.title.setText(tr("All is marked") if step is None else step.title)
         self.where.setText(where_words(wizard))
-        self.instruction.setText(_DONE if step is None else step.instruction)
+        self.instruction.setText(tr(_DONE) if step is None else step.instruction)
         for widget in self._of_a_step:
             widget.setVisible(step is not None)
         self.other.setVisible(step is not None and step.value is not None)
@@ -141,8 +145,8 @@ class StepSection(QWidget):
             self._show_step(step)
 
     def _show_step(self, step: Step) -> None:
-        self.mark.setText(_MARKS[step.stage])
-        self.skip.setText(_SKIPS.get(step.stage, "Skip"))
+        self.mark.setText(tr(_MARKS[step.stage]))
+        self.skip.setText(tr(_SKIPS[step.stage]) if step.stage in _SKIPS else tr("Skip"))
         self.skip.setToolTip(step.skip)
 
     def _show_parts(self, wizard: CalibrationWizard) -> None:
@@ -170,7 +174,7 @@ class StepSection(QWidget):
         for widget in (self.nudge, self.near):
             widget.setEnabled(awake)
         self.mark.setEnabled(awake and not moving)
-        self.mark.setToolTip(_WAIT_TIP if moving else _MARK_TIP)
+        self.mark.setToolTip(tr(_WAIT_TIP if moving else _MARK_TIP))
         if awake:
             self.nudge.show_pulse(pulse_us)
 

@@ -9,6 +9,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from rvsim.device.calibrate import CalibrationWizard, Objection, fit_from_samples, sag_of
+from rvsim.device.words import axis_name
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.panels.device_calibrate_flow import at_part, current_part, left_over, pose_steps, with_fit
 from rvsim.gui.panels.device_calibrate_jog import Jog, Part, pulse_for, seconds_between
@@ -22,6 +23,7 @@ _REST = 0.6  # [s] a sample, until the arm has come to rest and been looked at
 _STILL = 1e-4  # [rad, m] between two looks
 _LOOKS = 4  # in a row without a change: the arm stands
 _STOPPED = tr_later("The automatic calibration has ended: the arm was stopped.")
+_CANCELLED = tr_later("The automatic calibration was cancelled; what it has found stays.")
 _LOST = tr_later("The automatic calibration has ended: nothing can be measured any more.")
 
 Eyes = Callable[[], FloatArray | None]
@@ -76,25 +78,21 @@ class Sweep(QObject):
         """Which joint is swept: a sentence."""
         if self._wizard is None or self._joint is None:
             return ""
-        return tr(
-            "Sweeping the {joint_names}. Esc stops.", joint_names=self._wizard.robot.joint_names[self._joint.joint]
-        )
+        return tr("Sweeping the {joint}. Esc stops.", joint=axis_name(self._wizard.robot, self._joint.joint))
 
     def begin(self, wizard: CalibrationWizard) -> None:
         """From the joint at which a wizard is."""
         self._wizard = at_part(wizard, current_part(wizard))
         self._next_joint()
 
-    def cancel(
-        self, sentence: str = tr_later("The automatic calibration was cancelled; what it has found stays.")
-    ) -> None:
+    def cancel(self, sentence: str = _CANCELLED) -> None:
         """End it; the arm holds where it is."""
         if self._wizard is None:
             return
         self._wizard = self._joint = None
         if self._device.driver is not None:
             self._device.driver.hold()
-        self.ended.emit(sentence)
+        self.ended.emit(tr(sentence))
 
     def _next_joint(self) -> None:
         assert self._wizard is not None
@@ -149,7 +147,9 @@ class Sweep(QObject):
         assert self._wizard is not None
         fit = fit_from_samples(self._wizard.robot.servos[swept.joint], swept.at, swept.seen)
         if isinstance(fit, Objection):
-            self.cancel(f"{self._wizard.robot.joint_names[swept.joint]}: {fit}")
+            self.cancel(
+                tr("{joint}: {problem}", joint=axis_name(self._wizard.robot, swept.joint), problem=fit.sentence)
+            )
             return
         self._wizard = with_fit(self._wizard, fit)
         self.advanced.emit(self._wizard)

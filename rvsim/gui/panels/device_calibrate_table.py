@@ -10,6 +10,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
 from PySide6.QtGui import QFont, QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import QHeaderView, QTableView, QVBoxLayout, QWidget
 
+from rvsim.device.words import axis_name
 from rvsim.errors import RvsimError
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.panels.device_calibrate_cells import (
@@ -130,7 +131,7 @@ class ServosModel(QAbstractTableModel):
         return None
 
     def _name(self, row: int) -> str:
-        return "gripper" if self._of_gripper else f"J{row + 1}"
+        return tr("gripper") if self._of_gripper else f"J{row + 1}"
 
     def _number(self, row: int, column: int) -> float:
         assert self._robot is not None
@@ -154,14 +155,13 @@ class ServosModel(QAbstractTableModel):
     def _tip(self, row: int, column: int) -> str:
         assert self._robot is not None
         servo = self._rows(self._robot)[row]
-        name = (
-            tr("The gripper")
-            if self._of_gripper
-            else tr("The {joint_names}'s servo", joint_names=self._robot.joint_names[row])
-        )
-        if column > 0:
-            name = f"{name}: {self._columns[column - 1].head} {self.data(self.index(row, column), _Role.EditRole)}"
-        return f"{name}; {origin(servo.assumed, servo.source)}."
+        name = tr("The gripper") if self._of_gripper else tr("The {joint}'s servo", joint=axis_name(self._robot, row))
+        source = origin(servo.assumed, servo.source)
+        if column == 0:
+            return tr("{servo}; {origin}.", servo=name, origin=source)
+        number = self.data(self.index(row, column), _Role.EditRole)
+        head = tr(self._columns[column - 1].head)
+        return tr("{servo}: {head} {number}; {origin}.", servo=name, head=head, number=number, origin=source)
 
     def setData(self, index: Index, value: Any, role: int = _Role.EditRole) -> bool:
         """Take a typed text, if it is another one."""
@@ -178,10 +178,10 @@ class ServosModel(QAbstractTableModel):
         if role == _Role.TextAlignmentRole:
             return LEFT if section == 0 else RIGHT
         if role == _Role.ToolTipRole:
-            return tr("What hangs on the servo") if section == 0 else self._columns[section - 1].tip
+            return tr("What hangs on the servo") if section == 0 else tr(self._columns[section - 1].tip)
         if role != _Role.DisplayRole:
             return None
-        return "" if section == 0 else self._columns[section - 1].head
+        return "" if section == 0 else tr(self._columns[section - 1].head)
 
 
 class ServoTables(QWidget):
@@ -208,7 +208,7 @@ class ServoTables(QWidget):
         self.origin = wrapped_label("muted")
         self.origin.setObjectName("calibrate_origin")
         about = wrapped_label("muted")
-        about.setText(_ABOUT)
+        about.setText(tr(_ABOUT))
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
@@ -247,8 +247,10 @@ class ServoTables(QWidget):
 
     def _on_edited(self, joint: int, key: str, text: str) -> None:
         robot = self._session.robot
-        name = robot.joint_names[joint]
-        self._take(lambda: with_servo_number(robot, joint, key, text, today()), tr("Servo of the {name}", name=name))
+        self._take(
+            lambda: with_servo_number(robot, joint, key, text, today()),
+            tr("Servo of the {joint}", joint=axis_name(robot, joint)),
+        )
 
     def _on_gripper_edited(self, _row: int, key: str, text: str) -> None:
         robot = self._session.robot
@@ -277,6 +279,7 @@ def _table(name: str, title: str, model: ServosModel) -> QTableView:
     for column in narrow:
         table.horizontalHeader().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
     make_editable(table, f"{name}_editor")
+    table.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers, in any language
     table.horizontalHeader().sectionResized.connect(lambda column, _, width: model.give_room(column, width))
     return table
 

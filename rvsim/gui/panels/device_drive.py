@@ -55,6 +55,7 @@ class DrivePage(InspectPage):
         self.readings = ReadingsModel(preferences)
         self.table = plain_table("device_table", tr("Shown, sent and measured joints"), self.readings)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        self.table.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers, in any language
         self.measured = wrapped_label("muted")
         self.measured.setObjectName("device_measured_words")
         self._make_buttons()
@@ -179,7 +180,7 @@ class DrivePage(InspectPage):
             self._phase = phase
             set_role(self.light, level=phase_level(phase), role="" if phase_level(phase) else "muted")
         self.state_label.setText(phase_words(state, self._device.title))
-        reason = state.reason if state else ("" if robot.servos else _NO_SERVOS.format(arm=robot.title))
+        reason = state.reason if state else ("" if robot.servos else tr(_NO_SERVOS, arm=robot.title))
         self.reason.setText(reason)
         self.reason.setVisible(bool(reason))
         set_role(self.reason, level="error" if phase in ("stopped", "lost") else "")
@@ -203,7 +204,7 @@ class DrivePage(InspectPage):
         self.readings.show_readings(robot, self._session.q, state)
         fit_height(self.table)
         ghost = _GHOST_TRUE if self._device.virtual is not None else _GHOST_BACK
-        self.measured.setText(f"{MEASURED_WORDS[state.measured_kind]} {ghost}")
+        self.measured.setText(f"{tr(MEASURED_WORDS[state.measured_kind])} {tr(ghost)}")
 
     def _hint(self, state: DriverState) -> str:
         """Why the buttons below are grey, or what they would do now."""
@@ -243,4 +244,4 @@ class DrivePage(InspectPage):
 
 
 def _opening_words(opening: float) -> str:
-    return tr("{opening} % open", opening=round(100.0 * opening)) if math.isfinite(opening) else "asleep"
+    return tr("{percent} % open", percent=round(100.0 * opening)) if math.isfinite(opening) else tr("asleep")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from html import escape
 from pathlib import Path
 from typing import cast
 
@@ -12,6 +13,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QFileDialog, QHeaderView, QLabel, QVBoxLayout, QWidget
 
 from rvsim.device.driver.state import MEASURED_WORDS, MeasuredKind
+from rvsim.device.words import axis_name, in_a_row
 from rvsim.errors import FileWriteError
 from rvsim.files.atomic import write_atomically
 from rvsim.gui.device_control import DeviceControl
@@ -39,7 +41,20 @@ _EMPTY = tr_later(
 )
 _TOOL = -1
 _COLORS = {"desired": "#0072B2", "commanded": "#009E73", "measured": "#D55E00", "true": "#CC79A7"}
-_WORDS = {"desired": "wanted", "commanded": "sent", "true": tr_later("really (virtual arm)")}
+# What a curve shows, and the same for the head of a narrow column.
+_WORDS = {
+    "desired": tr_later("wanted"),
+    "commanded": tr_later("sent"),
+    "measured": tr_later("measured"),
+    "reported": tr_later("reported"),
+    "true": tr_later("really (virtual arm)"),
+}
+_HEADS = {
+    "commanded": tr_later("Sent"),
+    "measured": tr_later("Measured"),
+    "reported": tr_later("Reported"),
+    "true": tr_later("Really"),
+}
 _REPORTED = tr_later(
     "The controller reported pulses that stand for a tool {rms} (RMS) from where it should have been at the same "
     "moment, {most} at most, over {seconds}; that is no measurement: pulses come in steps of 10 µs, about 1°."
@@ -93,6 +108,7 @@ class MeasuredPage(InspectPage):
         self.model = ErrorsModel(preferences)
         self.table = plain_table("measured_table", tr("Deviations of joints and tool"), self.model)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        self.table.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers, in any language
         self.save = button(
             "measured_save",
             tr("Save as CSV…"),
@@ -124,7 +140,7 @@ class MeasuredPage(InspectPage):
         for widget in self._parts:
             widget.setVisible(recording is not None)
         if recording is None:
-            self.about.setText(_EMPTY)
+            self.about.setText(tr(_EMPTY))
             self.draw(())
             return
         robot = self._session.robot
@@ -132,7 +148,7 @@ class MeasuredPage(InspectPage):
             self._recording = None
             self.refresh()
             return
-        self.about.setText(MEASURED_WORDS[cast(MeasuredKind, recording.kind)])
+        self.about.setText(tr(MEASURED_WORDS[cast(MeasuredKind, recording.kind)]))
         self._offer(robot)
         self._part = recording.on_trajectory()
         self.model.show_errors(robot, self._part)
@@ -159,7 +175,7 @@ class MeasuredPage(InspectPage):
         self._refresh_if_seen()
 
     def _offer(self, robot: Robot) -> None:
-        names = [tr("Tool"), *(f"J{i + 1} {name}" for i, name in enumerate(robot.joint_names))]
+        names: list[str] = [tr("Tool"), *(_joint_title(robot, joint) for joint in range(robot.dof))]
         if [self.what.itemText(i) for i in range(self.what.count())] != names:
             with QSignalBlocker(self.what):
                 self.what.clear()
@@ -181,7 +197,7 @@ class MeasuredPage(InspectPage):
     def _on_save(self) -> None:
         if self._recording is None:
             return
-        chosen, _ = QFileDialog.getSaveFileName(self, tr("Save as CSV"), "measured.csv", tr("CSV (*.csv)"))
+        chosen, _ = QFileDialog.getSaveFileName(self, tr("Save as CSV"), "measured.csv", "CSV (*.csv)")
         if not chosen:
             return
         try:
@@ -189,7 +205,7 @@ class MeasuredPage(InspectPage):
         except (OSError, FileWriteError) as problem:
             self._session.say(tr("Not saved: {problem}", problem=problem), "error")
             return
-        self._session.say(tr("Saved {chosen}.", chosen=chosen))
+        self._session.say(tr("Saved {file}.", file=chosen))
 
 
 class ErrorsModel(QAbstractTableModel):
@@ -199,7 +215,7 @@ class ErrorsModel(QAbstractTableModel):
         super().__init__()
         self._preferences = preferences
         self._rows: tuple[tuple[str, str, tuple[str, ...]], ...] = ()
-        self._heads: tuple[str, ...] = (_DEVIATION,)
+        self._heads: tuple[str, ...] = (tr(_DEVIATION),)
         self._tips: tuple[str, ...] = ("",)
 
     def show_errors(self, robot: Robot, recording: Recording) -> None:
@@ -208,18 +224,22 @@ class ErrorsModel(QAbstractTableModel):
         most = () if "true" in sources else ("measured",)  # there is room for four columns
         joint_values = [*(recording.joint_errors(name).rms for name in sources)]
         joint_values += [*(recording.joint_errors(name).max for name in most)]
-        rows = []
+        rows: list[tuple[str, str, tuple[str, ...]]] = []
         for index, joint in enumerate(robot.joints):
             kind = joint_kind(robot, index)
             texts = tuple(_text(values[index], kind, self._preferences) for values in joint_values)
-            rows.append((f"J{index + 1} {joint.name}", joint.color, texts))
+            rows.append((_joint_title(robot, index), joint.color, texts))
         tool = [float(recording.tool_errors(robot, name).rms) for name in sources]
         tool += [float(recording.tool_errors(robot, name).max) for name in most]
         rows.append(
             (tr("Tool"), "#808080", tuple(_text(value, length_kind(robot), self._preferences) for value in tool))
         )
-        self._tips = (tr("A joint, or the tool"), *(_TIPS[name] for name in sources), *(_MOST_TIP for _ in most))
-        self._heads = (_DEVIATION, *(_short(recording, name) for name in sources), *(tr("At most") for _ in most))
+        self._tips = (
+            tr("A joint, or the tool"),
+            *(tr(_TIPS[name]) for name in sources),
+            *(tr(_MOST_TIP) for _ in most),
+        )
+        self._heads = (tr(_DEVIATION), *(_short(recording, name) for name in sources), *(tr("At most") for _ in most))
         self.beginResetModel()
         self._rows = tuple(rows)
         self.endResetModel()
@@ -263,12 +283,12 @@ def _same(one: Recording, other: Recording) -> bool:
 
 def _summary(robot: Robot, recording: Recording, part: Recording, preferences: Preferences, *, runs: bool) -> str:
     """What the motion came to; `part` is that on the trajectory itself."""
-    sentences = []
+    sentences: list[str] = []
     if recording.stopped_at is not None and not runs:
         sentences.append(
             tr(
-                "It was stopped at {stopped_at:.1f} of {planned:.1f} s.",
-                stopped_at=recording.stopped_at,
+                "It was stopped at {time:.1f} of {planned:.1f} s.",
+                time=recording.stopped_at,
                 planned=recording.planned,
             )
         )
@@ -278,10 +298,10 @@ def _summary(robot: Robot, recording: Recording, part: Recording, preferences: P
             tr("Nothing came back of this motion.") if recording.t[-1] >= 0.0 else tr("It has not begun yet.")
         )
     else:
-        sentences.append((_MEASURED if recording.is_measured else _REPORTED).format(**back))
+        sentences.append(tr(_MEASURED if recording.is_measured else _REPORTED, **back))
     truly = _amounts(robot, part, "true", preferences) if part.true is not None else None
     if truly is not None:
-        sentences.append(_TRULY.format(**truly))
+        sentences.append(tr(_TRULY, **truly))
     return " ".join(sentences)
 
 
@@ -304,12 +324,12 @@ def _joint_drawings(robot: Robot, recording: Recording, axis: int, preferences: 
     }
     lines = tuple(Line(_name(recording, name), _COLORS[name], row, name == "desired") for name, row in values.items())
     errors = tuple(
-        Line(tr("{name} − wanted", name=_name(recording, name)), _COLORS[name], values[name] - values["desired"])
+        Line(tr("{curve} − wanted", curve=_name(recording, name)), _COLORS[name], values[name] - values["desired"])
         for name in _compared(recording)
     )
     unit = shown.suffix.strip()
-    name = f"J{axis + 1} {robot.joint_names[axis]}"
-    return Drawing(name, unit, lines), Drawing(tr("{name}, deviation", name=name), unit, errors)
+    name = _joint_title(robot, axis)
+    return Drawing(name, unit, lines), Drawing(tr("{joint}, deviation", joint=name), unit, errors)
 
 
 def _tool_drawings(robot: Robot, recording: Recording, _axis: int, preferences: Preferences) -> tuple[Drawing, Drawing]:
@@ -341,16 +361,26 @@ def _axes_title(recording: Recording, places: dict[str, FloatArray]) -> str:
     if recording.empty:
         return tr("Tool x, y, z")
     order = np.argsort(-np.nan_to_num(places["desired"][0]))
-    return tr("Tool, at the left from above: {order}", order=", ".join("xyz"[i] for i in order))
+    return tr("Tool, at the left from above: {order}", order=in_a_row("xyz"[i] for i in order))
 
 
 def _name(recording: Recording, source: str) -> str:
-    return _WORDS.get(source, recording.back_word)
+    return tr(_WORDS[_known(recording, source)])
 
 
 def _short(recording: Recording, source: str) -> str:
     """For a narrow column: "Sent"."""
-    return _name(recording, source).split(" ")[0].capitalize()
+    return tr(_HEADS[_known(recording, source)])
+
+
+def _known(recording: Recording, source: str) -> str:
+    """What came back is a measurement, or the controller's report."""
+    return "reported" if source == "measured" and not recording.is_measured else source
+
+
+def _joint_title(robot: Robot, joint: int) -> str:
+    """ "J2 shoulder"."""
+    return f"J{joint + 1} {axis_name(robot, joint)}"
 
 
 def _legend(recording: Recording, dark: bool) -> str:
@@ -359,7 +389,7 @@ def _legend(recording: Recording, dark: bool) -> str:
     for source in recording.sources:
         color = QColor(_COLORS[source]).lighter(_ON_DARK if dark else 100).name()
         sign = "┄" if source == "desired" else "━"
-        parts.append(f'<span style="color:{color}">{sign}</span>&nbsp;{_name(recording, source)}')
+        parts.append(f'<span style="color:{color}">{sign}</span>&nbsp;{escape(_name(recording, source))}')
     return " &nbsp; ".join(parts)
 
 
@@ -379,7 +409,7 @@ def _paths(robot: Robot, recording: Recording) -> tuple[Item, ...]:
         if len(places) >= 2:
             items.append(
                 Polyline(
-                    tr("measured.{source}", source=source),
+                    f"measured.{source}",
                     places,
                     Color.from_hex(_COLORS[source]),
                     2.0,

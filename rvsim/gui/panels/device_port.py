@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QVBoxLayout, QWidget
 
 from rvsim.device.driver.addresses import OTHER_VIRTUAL
 from rvsim.device.driver.ports import PortChoice, available_ports
 from rvsim.experiment import DeviceSettings
-from rvsim.gui.device_words import LANGUAGE_WORDS
+from rvsim.gui.device_words import LANGUAGE_WORDS, baud_words
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, form, select
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr
 
 _TYPED = ""
-_BAUDS = {rate: f"{rate} baud" for rate in (9600, 38400, 115200, 2400)}
+_BAUDS = (9600, 38400, 115200, 2400)
 
 
 class PortSection(QWidget):
@@ -32,10 +32,16 @@ class PortSection(QWidget):
         self.port = combo("device_port", tr("Port"))
         self.address = QLineEdit()
         self.address.setObjectName("device_address")
+        self.address.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.address.setAccessibleName(tr("Address"))
-        self.address.setPlaceholderText(tr("socket://192.168.1.5:4001 or rfc2217://…"))
+        self.address.setPlaceholderText(
+            tr("{example} or {other}", example="socket://192.168.1.5:4001", other="rfc2217://…")
+        )
         self.address.setToolTip(
-            tr("Anything that pySerial can open: socket://, rfc2217://, /dev/…, COM…, al5b://?seed=2")
+            tr(
+                "Anything that pySerial can open: {examples}",
+                examples="socket://, rfc2217://, /dev/…, COM…, al5b://?seed=2",
+            )
         )
         self.detail = QLabel()
         self.detail.setWordWrap(True)
@@ -43,7 +49,7 @@ class PortSection(QWidget):
         set_role(self.detail, role="muted")
         self.rescan = button("device_rescan", "↻", tr("Look for ports again"), self.scan)
         self.rescan.setFixedWidth(34)
-        self.baud = combo("device_baud", tr("Speed of the wire"), {str(rate): text for rate, text in _BAUDS.items()})
+        self.baud = combo("device_baud", tr("Speed of the wire"), {str(rate): baud_words(rate) for rate in _BAUDS})
         self.language = combo("device_language", tr("Language of the controller"), LANGUAGE_WORDS)
         self.connect_button = button(
             "device_connect_button", tr("Connect"), tr("Open the port. Nothing moves"), self._on_button, primary=True
@@ -97,7 +103,7 @@ class PortSection(QWidget):
             self.address.setText(settings.url)
         self.port.setCurrentIndex(here if here >= 0 else self.port.findData(_TYPED))
         if self.baud.findData(str(settings.baud)) < 0:
-            self.baud.addItem(f"{settings.baud} baud", str(settings.baud))
+            self.baud.addItem(baud_words(settings.baud), str(settings.baud))
         select(self.baud, str(settings.baud))
         select(self.language, settings.language)
 
@@ -109,7 +115,7 @@ class PortSection(QWidget):
         self.port.blockSignals(True)
         self.port.clear()
         for choice in self._choices:
-            self.port.addItem(choice.title, choice.url)
+            self.port.addItem(_title(choice), choice.url)
         self.port.addItem(tr("Another address …"), _TYPED)
         self.port.setCurrentIndex(max(self.port.findData(before), 0) if before is not None else 0)
         self.port.blockSignals(False)
@@ -138,7 +144,7 @@ class PortSection(QWidget):
         for widget in (self.address, self._address_label):
             widget.setVisible(typed)
         detail = next((choice.detail for choice in self._choices if choice.url == self.port.currentData()), "")
-        self.detail.setText(detail)
+        self.detail.setText(tr(detail) if detail else "")
         self.detail.setVisible(bool(detail) and not self._connected)
 
     def _on_button(self) -> None:
@@ -146,3 +152,8 @@ class PortSection(QWidget):
             self.disconnect_wanted.emit()
         else:
             self.connect_wanted.emit(self.url, int(self.baud.currentData()), str(self.language.currentData()))
+
+
+def _title(choice: PortChoice) -> str:
+    """That of a virtual arm is said, a port's own is its name."""
+    return left_to_right(choice.title) if choice.title == choice.url else tr(choice.title)

@@ -69,12 +69,12 @@ class ReadingsModel(QAbstractTableModel):
         if orientation != Qt.Orientation.Horizontal:
             return None
         if role == _Role.ToolTipRole:
-            return _TIPS[section]
+            return tr(_TIPS[section])
         if role == _Role.TextAlignmentRole:
             return LEFT if section == 0 else RIGHT
         if role != _Role.DisplayRole:
             return None
-        return tr("Reported") if section == _BACK and self._reported else _COLUMNS[section]
+        return tr("Reported") if section == _BACK and self._reported else tr(_COLUMNS[section])
 
     def data(self, index: Index, role: int = _Role.DisplayRole) -> object:
         """One cell."""
@@ -94,11 +94,13 @@ class ReadingsModel(QAbstractTableModel):
         assert self._robot is not None
         joint, awake = self._robot.joints[row], self._awake[row]
         if role == _Role.DisplayRole:
-            return f"J{row + 1} {joint.name}" + ("" if awake else " ☾")
+            return f"J{row + 1} {tr(joint.name)}" + ("" if awake else " ☾")
         if role == _Role.DecorationRole:
             return dot(joint.color)
         if role == _Role.ToolTipRole:
-            return f"{joint.name}: " + ("awake" if awake else tr("asleep: its servo has not been moved by rvsim yet"))
+            if awake:
+                return tr("{joint}: awake", joint=tr(joint.name))
+            return tr("{joint}: asleep: its servo has not been moved by rvsim yet", joint=tr(joint.name))
         return None
 
     def _text(self, row: int, value: float) -> str:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSignalBlocker
+from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QCheckBox, QGroupBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rvsim.device.virtual.arm import VirtualArm
 from rvsim.device.virtual.faults import FAULT_WORDS, NO_FAULTS, Fault
+from rvsim.device.words import axis_names, with_capital
 from rvsim.experiment import Experiment
 from rvsim.gui.device_control import DeviceControl
+from rvsim.gui.device_words import baud_words
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_page import InspectPage
 from rvsim.gui.preferences import Preferences
@@ -30,7 +32,7 @@ _SERVE = tr_later(
 )
 _SILENT = tr_later("No program has sent anything yet.")
 _WHICH = {"connected": tr_later("The connected arm"), "served": tr_later("The served arm")}
-_BAUDS = {"9600": "9600 baud", "38400": "38400 baud", "115200": "115200 baud"}
+_BAUDS = (9600, 38400, 115200)
 _LINE = 'import serial\nport = serial.serial_for_url("{address}", baudrate={baud})\nport.write(b"#0P1600T1000\\r")'
 
 
@@ -66,15 +68,15 @@ class VirtualPage(InspectPage):
         self._shown: VirtualArm | None = None
 
     def _switch(self, fault: Fault) -> QCheckBox:
-        box = QCheckBox(f"{fault.value[0].upper()}{fault.value[1:]}")
+        box = QCheckBox(with_capital(tr(fault.value)))
         box.setObjectName(f"fault_{fault.name.lower()}")
-        box.setToolTip(FAULT_WORDS[fault])
+        box.setToolTip(tr(FAULT_WORDS[fault]))
         box.toggled.connect(lambda on, fault=fault: self._on_fault(fault, on))
         return box
 
     def _make_serving(self) -> None:
         self.way = combo("serve_way", tr("How other programs reach it"), ways())
-        self.baud = combo("serve_baud", tr("Speed of its board"), _BAUDS)
+        self.baud = combo("serve_baud", tr("Speed of its board"), {str(rate): baud_words(rate) for rate in _BAUDS})
         self.serve = button(
             "serve_button", tr("Serve a virtual arm"), tr("Other programs can drive it then"), self._on_serve
         )
@@ -85,6 +87,7 @@ class VirtualPage(InspectPage):
         self.example = QLabel()
         self.example.setObjectName("serve_example")
         self.example.setWordWrap(True)
+        self.example.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # code, in any language
         set_role(self.example, role="code")
         self.copy = button("serve_copy", tr("Copy as Python"), tr("Three lines that move the base"), self._on_copy)
 
@@ -105,7 +108,7 @@ class VirtualPage(InspectPage):
         column = QVBoxLayout(serving)
         column.setSpacing(6)
         about = wrapped_label("muted")
-        about.setText(_SERVE)
+        about.setText(tr(_SERVE))
         column.addWidget(about)
         choices = form()
         choices.addRow(tr("Through"), self.way)
@@ -137,7 +140,7 @@ class VirtualPage(InspectPage):
         """Show which faults are on, and whether an arm is served."""
         arm, robot = self._arm, self._session.robot
         self._shown = arm
-        self.about.setText(_IN_USE if arm else _NONE)
+        self.about.setText(tr(_IN_USE if arm else _NONE))
         self._show_which()
         for fault, box in self.faults.items():
             box.setEnabled(arm is not None)
@@ -172,12 +175,12 @@ class VirtualPage(InspectPage):
             came=came,
             went=went,
         )
-        text = words if came or went else _SILENT
+        text = words if came or went else tr(_SILENT)
         if self.traffic.text() != text:
             self.traffic.setText(text)
 
     def _show_servos(self, arm: VirtualArm | None) -> None:
-        names = [*self._session.robot.joint_names, "gripper"] if self._session.robot.servos else []
+        names = list(axis_names(self._session.robot)) if self._session.robot.servos else []
         with QSignalBlocker(self.servo):
             if [self.servo.itemText(i) for i in range(self.servo.count())] != names:
                 self.servo.clear()
@@ -199,7 +202,7 @@ class VirtualPage(InspectPage):
         arm = self._arm
         if arm is not None:
             arm.faults = arm.faults.switched(fault, on)
-            self._session.say(FAULT_WORDS[fault] if on else tr("Mended: {value}.", value=fault.value))
+            self._session.say(tr(FAULT_WORDS[fault]) if on else tr("Mended: {fault}.", fault=tr(fault.value)))
 
     def _on_servo(self) -> None:
         arm = self._arm

@@ -6,6 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from rvsim.device.driver.state import DriverState
+from rvsim.device.words import axis_name
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_quantity, joint_kind
@@ -87,24 +88,24 @@ class WakeSection(QWidget):
         later = [number for number in asleep if number >= self._skipped]
         self._joint = (later or asleep)[0]
         count = len(_awake(robot, state))
-        name = robot.joint_names[self._joint] if self._joint < robot.dof else "gripper"
-        self.title.setText(tr("Wake the arm: {count} of {count2} awake", count=count - len(asleep), count2=count))
-        self.why.setText(_WHY_GENTLE if gentle else _WHY_VIRTUAL if virtual else _WHY)
+        name = axis_name(robot, self._joint)
+        self.title.setText(tr("Wake the arm: {awake} of {count} awake", awake=count - len(asleep), count=count))
+        self.why.setText(tr(_WHY_GENTLE if gentle else _WHY_VIRTUAL if virtual else _WHY))
         self.what.setText(self._says(robot, q, name, gentle))
-        self.wake.setText(tr("Wake {name}", name=name))
+        self.wake.setText(tr("Wake {joint}", joint=name))
         self.all.setVisible(virtual)
 
     def _says(self, robot: Robot, q: FloatArray, name: str, gentle: bool) -> str:
         if self._joint == robot.dof:
             assert robot.gripper_servo is not None
-            return tr("The gripper will open at once") + (
-                "." if gentle else f" ({robot.gripper_servo.open_us:.0f} µs)."
-            )
+            if gentle:
+                return tr("The gripper will open at once.")
+            return tr("The gripper will open at once ({pulse:.0f} µs).", pulse=robot.gripper_servo.open_us)
         angle = format_quantity(float(q[self._joint]), joint_kind(robot, self._joint), self._preferences)
         if gentle:
-            return tr("The {name} will go to {angle}.", name=name, angle=angle)
+            return tr("The {joint} will go to {angle}.", joint=name, angle=angle)
         pulse = clamped_pulses(robot.servos, pulses_of(robot.servos, q))[self._joint]
-        return tr("The {name} will jump to {angle} ({pulse:.0f} µs).", name=name, angle=angle, pulse=pulse)
+        return tr("The {joint} will jump to {angle} ({pulse:.0f} µs).", joint=name, angle=angle, pulse=pulse)
 
     def _on_wake(self) -> None:
         self.wake_wanted.emit(self._joint)

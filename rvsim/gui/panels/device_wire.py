@@ -28,7 +28,7 @@ from rvsim.gui.stage import Stage
 from rvsim.gui.theme import THEMES, set_role
 from rvsim.gui.widgets import button, column_of, scrolled
 from rvsim.gui.workers import LatestWorker
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 
 _EMPTY = tr_later(
     "Nothing has gone over the wire yet: connect an arm on the Drive page, or serve one on the Virtual page.\n\n"
@@ -90,7 +90,7 @@ class WirePage(InspectPage):
         self.counters.setObjectName("wire_counters")
         self.note.setObjectName("wire_note")
         self.empty.setObjectName("wire_empty")
-        self.empty.setText(_EMPTY)
+        self.empty.setText(tr(_EMPTY))
 
     def _lay_out(self) -> None:
         inside, self.inside = QWidget(), QWidget()
@@ -188,21 +188,27 @@ class WirePage(InspectPage):
         if not self.feed.slowest:
             return counted
         latest, slowest = milliseconds(self.feed.latest), milliseconds(self.feed.slowest)
-        return tr(
-            "{counted} Answers after {latest}, the slowest after {slowest}.",
-            counted=counted,
-            latest=latest,
-            slowest=slowest,
+        return f"{counted} " + tr(
+            "Answers after {latest}, the slowest after {slowest}.", latest=latest, slowest=slowest
         )
 
     def _note(self) -> str:
         lines, shown = len(self.model.lines), len(self.model.shown)
         if self.feed.paused:
-            return tr("Paused. {lines} came meanwhile: press Resume.", lines=_lines(self.feed.meanwhile))
+            return trn(
+                "Paused. {n:,} line came meanwhile: press Resume.",
+                "Paused. {n:,} lines came meanwhile: press Resume.",
+                self.feed.meanwhile,
+            )
         if not lines:
-            return _CLEARED
+            return tr(_CLEARED)
         if shown < lines:
-            return tr("{lines} of polling hidden, {shown:,} shown.", lines=_lines(lines - shown), shown=shown)
+            return trn(
+                "{n:,} line of polling hidden, {shown:,} shown.",
+                "{n:,} lines of polling hidden, {shown:,} shown.",
+                lines - shown,
+                shown=shown,
+            )
         return ""
 
     # --- taking it away --------------------------------------------------------------------------------------------
@@ -211,12 +217,12 @@ class WirePage(InspectPage):
         """The selected lines, or all that are shown, as text."""
         text, count = self.table.chosen_text()
         QGuiApplication.clipboard().setText(text)
-        self._session.say(tr("Copied {lines} of the wire.", lines=_lines(count)))
+        self._session.say(trn("Copied {n:,} line of the wire.", "Copied {n:,} lines of the wire.", count))
 
     def ask_file(self) -> None:
         """Ask where to, and write the whole log there."""
-        start = str(Path.home() / tr("{name}-wire.txt", name=self._session.robot.name))
-        chosen, _ = QFileDialog.getSaveFileName(self, tr("Save the wire log"), start, tr("Text (*.txt *.log)"))
+        start = str(Path.home() / f"{self._session.robot.name}-wire.txt")
+        chosen, _ = QFileDialog.getSaveFileName(self, tr("Save the wire log"), start, tr("Text") + " (*.txt *.log)")
         if chosen:
             self.save_to(Path(chosen) if Path(chosen).suffix else Path(chosen).with_suffix(".txt"))
 
@@ -241,10 +247,6 @@ def _say(label: QWidget, text: str) -> None:
     if label.property("text") != text:
         label.setProperty("text", text)
     label.setVisible(bool(text))
-
-
-def _lines(count: int) -> str:
-    return f"{count:,} {'line' if count == 1 else 'lines'}"
 
 
 def _saved(save: Callable[[Path], None], path: Path) -> tuple[str, str]:

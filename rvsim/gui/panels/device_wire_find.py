@@ -103,6 +103,6 @@ class FindRow(QWidget):
 
 def count_words(search: WireSearch, place: int) -> str:
     """ "3 of 17"; with … while lines are left to be looked at."""
-    count = f"{len(search.matches):,}" if search.matches else "none"
-    found = f"{place:,} of {count}" if place else count
+    count = len(search.matches)
+    found = tr("{place:,} of {count:,}", place=place, count=count) if place else f"{count:,}" if count else tr("none")
     return f"{found} …" if search.searching else found

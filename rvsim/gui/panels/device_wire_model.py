@@ -15,7 +15,7 @@ from rvsim.gui.panels.device_wire_lines import Line, shown_bytes
 from rvsim.gui.panels.device_wire_words import Words
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index
 from rvsim.gui.theme import THEMES, Theme
-from rvsim.language import tr_later
+from rvsim.language import left_to_right, tr, tr_later
 
 TIME, WAY, BYTES, WORDS = range(4)
 _TOP = QModelIndex()
@@ -23,7 +23,7 @@ _HEADS = (tr_later("Time [s]"), "", tr_later("Bytes"), tr_later("In words"))
 _TIPS = (
     tr_later("Seconds: 0 is when the connection was asked for, just before its port was opened, or when serving began"),
     tr_later("→ to the arm, ← from the arm"),
-    "What went over the wire; bytes that are no letters as \\r or \\x1b",
+    tr_later("What went over the wire; bytes that are no letters as \\r or \\x1b"),
     tr_later("What it means"),
 )
 _TINT = 60  # of 255, behind what was searched for
@@ -149,7 +149,8 @@ class WireModel(QAbstractTableModel):
             return None
         if role == _Role.TextAlignmentRole:
             return RIGHT if section == TIME else LEFT
-        return {_Role.DisplayRole: _HEADS[section], _Role.ToolTipRole: _TIPS[section]}.get(_Role(role))
+        text = {_Role.DisplayRole: _HEADS[section], _Role.ToolTipRole: _TIPS[section]}.get(_Role(role))
+        return tr(text) if text else text
 
     def data(self, index: Index, role: int = _Role.DisplayRole) -> object:
         """One cell; words are made when somebody looks at them."""
@@ -175,7 +176,7 @@ class WireModel(QAbstractTableModel):
             return f"{line.entry.time:.3f}"
         if column == WAY:
             return line.entry.direction
-        return self.text(line) if column == BYTES else self.words.of(line)
+        return left_to_right(self.text(line)) if column == BYTES else self.words.of(line)
 
     def _ink(self, line: Line, column: int) -> QColor | None:
         """Stops stand out; what comes from the arm has another colour beside its other arrow."""

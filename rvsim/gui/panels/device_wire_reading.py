@@ -13,7 +13,7 @@ from rvsim.gui.panels.device_wire_words import Words, what_it_would_do
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.tables import text_metrics
 from rvsim.gui.theme import set_role
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Robot
 
 _HINT = tr_later("Point at a line, or click it, to read what it means.")
@@ -32,6 +32,7 @@ class LineReading(QWidget):
             label.setObjectName(name)
             label.setTextFormat(Qt.TextFormat.PlainText)
         self.bytes.setStyleSheet(fixed_style())
+        self.bytes.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         _column(self, self.head, self.bytes, self.words).addStretch(1)
         self._keep_room()
 
@@ -40,19 +41,9 @@ class LineReading(QWidget):
         for label in (self.bytes, self.words):
             label.setVisible(line is not None)
         if line is None or words is None:
-            self.head.setText(_HINT)
+            self.head.setText(tr(_HINT))
             return
-        count = len(line.entry.data)
-        way = tr("to the arm") if line.sent else tr("from the arm")
-        self.head.setText(
-            tr(
-                "{time:.3f} s after the start, {count} {value} {way}",
-                time=line.entry.time,
-                count=count,
-                value="byte" if count == 1 else "bytes",
-                way=way,
-            )
-        )
+        self.head.setText(_head(line))
         self.bytes.setText(breakable(shown_bytes(line, words.language)))
         self.words.setText(words.told(line))
 
@@ -81,6 +72,7 @@ class TryLine(QWidget):
         self.box.setPlaceholderText("#0P1500#1P1800T700")
         self.box.setToolTip(tr("A line in the language of the SSC-32. It is explained, nothing is sent"))
         self.box.setStyleSheet(fixed_style())
+        self.box.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.words = wrapped_label("muted")
         self.words.setObjectName("wire_try_words")
         self.words.setTextFormat(Qt.TextFormat.PlainText)
@@ -101,6 +93,24 @@ class TryLine(QWidget):
             return
         self.words.setText(what_it_would_do(typed, self._robot))
         set_role(self.words, role="")
+
+
+def _head(line: Line) -> str:
+    """When it went, how long it is, and which way."""
+    count, time = len(line.entry.data), line.entry.time
+    if line.sent:
+        return trn(
+            "{time:.3f} s after the start, {n} byte to the arm",
+            "{time:.3f} s after the start, {n} bytes to the arm",
+            count,
+            time=time,
+        )
+    return trn(
+        "{time:.3f} s after the start, {n} byte from the arm",
+        "{time:.3f} s after the start, {n} bytes from the arm",
+        count,
+        time=time,
+    )
 
 
 def breakable(text: str) -> str:

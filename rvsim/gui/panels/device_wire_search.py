@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from rvsim.gui.panels.device_wire_lines import Line
 from rvsim.gui.panels.device_wire_model import WireModel
+from rvsim.language import without_isolates
 
 _SLICE = 0.006  # [s] of work at once
 _STRIDE = 50  # lines between two looks at the clock
@@ -105,7 +106,10 @@ class WireSearch(QObject):
 
     def _matches(self, line: Line) -> bool:
         model = self._model
-        return self._wanted in model.text(line).casefold() or self._wanted in model.words.of(line).casefold()
+        return (
+            self._wanted in model.text(line).casefold()
+            or self._wanted in without_isolates(model.words.of(line)).casefold()
+        )
 
     def _forget_gone(self) -> None:
         first = self._model.shown[0].number if self._model.shown else self._next

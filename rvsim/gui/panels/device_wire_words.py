@@ -9,11 +9,13 @@ from rvsim.device.bridge.words import frame_in_words
 from rvsim.device.ssc32.board_side import parse_line
 from rvsim.device.ssc32.commands import Query
 from rvsim.device.ssc32.words import reply_in_words, sent_in_words
+from rvsim.device.words import with_capital
 from rvsim.gui.panels.device_wire_lines import Language, Line
 from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
 _MOST_KEPT = 20_000  # texts; the same questions and answers come again and again
+_QUESTION_MARKS = "?؟"
 _CUT = tr_later("Cut off before its end: the controller does nothing with it.")
 
 Key = tuple[str, bytes, bytes | None, bool, frozenset[int]]
@@ -40,7 +42,7 @@ class Words:
         """The same, with how long an answer took."""
         if math.isnan(line.latency):
             return self.of(line)
-        return tr("{of} Answered after {milliseconds}.", of=self.of(line), milliseconds=milliseconds(line.latency))
+        return f"{self.of(line)} " + tr("Answered after {time}.", time=milliseconds(line.latency))
 
 
 def channel_names(robot: Robot) -> dict[int, str]:
@@ -58,8 +60,8 @@ def milliseconds(seconds: float) -> str:
 
 def sentence(text: str) -> str:
     """With a capital at its beginning and a stop at its end, unless it asks."""
-    ended = text if text.endswith(".") or "?" in text else f"{text}."
-    return ended[:1].upper() + ended[1:]
+    asks = any(mark in text for mark in _QUESTION_MARKS)
+    return with_capital(text if text.endswith(".") or asks else f"{text}.")
 
 
 def what_it_would_do(typed: str, robot: Robot) -> str:
@@ -71,7 +73,7 @@ def what_it_would_do(typed: str, robot: Robot) -> str:
 def _ssc32(words: Words, line: Line) -> str:
     data, question = line.entry.data, line.question
     if line.sent:
-        return sentence(sent_in_words(data, words.names, line.wakes)) if line.whole else _CUT
+        return sentence(sent_in_words(data, words.names, line.wakes)) if line.whole else tr(_CUT)
     query = parse_line(question.removesuffix(b"\r").rpartition(b"\x1b")[2]) if question else None
     return sentence(reply_in_words(query if isinstance(query, Query) else None, data, words.names))
 
