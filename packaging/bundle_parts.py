@@ -23,19 +23,12 @@ HIDDEN = (
     "serial.urlhandler.protocol_socket",
 )
 
-# SciPy is here for its banded solver (rvsim.motion.spline); its other packages are 100 MB that nothing imports.
-SCIPY_KEPT = ("_lib", "linalg")
-_SCIPY = (
-    "cluster", "constants", "datasets", "differentiate", "fft", "fftpack", "integrate", "interpolate", "io", "misc",
-    "ndimage", "odr", "optimize", "signal", "sparse", "spatial", "special", "stats",
-)  # fmt: skip
-
 # Parts of libraries that rvsim does not use, and what they would bring along.
 EXCLUDED = (
-    *(f"scipy.{name}" for name in _SCIPY),
     "PIL.AvifImagePlugin", "PIL._avif", "PIL._imagingcms", "PIL._imagingft", "PIL._imagingtk", "PIL.ImageTk",
     "PySide6.QtNetwork", "PySide6.QtQml", "PySide6.QtQuick", "PySide6.QtSql",
-    "IPython", "OpenGL_accelerate", "cupy", "h5py", "matplotlib", "numba", "pytest", "setuptools", "pkg_resources",
+    "IPython", "OpenGL_accelerate", "cupy", "h5py", "matplotlib", "numba", "pytest", "scipy", "setuptools",
+    "pkg_resources",
     "_curses", "_hashlib", "_sqlite3", "_ssl", "curses", "lib2to3", "pdb", "pydoc_data", "readline", "sqlite3", "ssl",
     "tkinter", "xmlrpc",
 )  # fmt: skip
@@ -90,8 +83,6 @@ def is_kept(target: str, platform: str = sys.platform) -> bool:
         return path.stem in {f"qtbase_{language}" for language in _LANGUAGES}
     if path.parts[0].endswith(".dist-info"):
         return path.name == "METADATA"  # for the versions; the licences are told elsewhere
-    if path.parts[0] == "scipy" and len(path.parts) > 2:
-        return path.parts[1] in SCIPY_KEPT
     return not (platform.startswith("linux") and _is_named(path, (*_SYSTEM_LIBRARIES, *_UNUSED_LIBRARIES)))
 
 

@@ -148,7 +148,7 @@ def largest(sizes: Mapping[Path, int], folder: Path) -> list[tuple[str, int]]:
     for path, size in sizes.items():
         steps = path.relative_to(folder).parts
         part = steps[1] if steps[0] == "_internal" and len(steps) > 1 else steps[0]
-        owner = "scipy" if part == "scipy.libs" else "numpy" if part == "numpy.libs" else part
+        owner = "numpy" if part == "numpy.libs" else part
         parts[owner] = parts.get(owner, 0) + size
     return sorted(parts.items(), key=lambda entry: -entry[1])
 

@@ -12,7 +12,7 @@ from PySide6.QtGui import QGuiApplication
 import rvsim
 
 PARTS = (
-    "PySide6-Essentials", "numpy", "scipy", "pyqtgraph", "PyOpenGL", "pyserial", "ziamath", "ruckig", "pillow",
+    "PySide6-Essentials", "numpy", "pyqtgraph", "PyOpenGL", "pyserial", "ziamath", "ruckig", "pillow",
     "simpleeval", "platformdirs",
 )  # fmt: skip
 

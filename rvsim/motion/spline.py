@@ -1,6 +1,7 @@
 """The cubic spline through points, as MATLAB's `spline` makes it: the source's letter is drawn with it.
 
-A spline of a dozen knots is a small linear system; solving it here spares every start half a second of imports.
+Its linear system is solved here, by numpy alone: a library with a banded solver would be a sixth of a bundle, and half
+a second of imports.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from rvsim.errors import ShapeError
 from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray, frozen_array
 
-_DENSE = 200  # knots; more are solved as the banded system that they are
+_DENSE = 100  # knots; of more, every other one is eliminated first
 
 
 def spline_points(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> FloatArray:
@@ -59,13 +60,29 @@ def knot_slopes(
 
 
 def _tridiagonal(below: FloatArray, middle: FloatArray, above: FloatArray, right: FloatArray) -> FloatArray:
-    """(k, d) the solution of the system with these diagonals; in time and memory linear in k where k is large."""
+    """(k, d) the solution of the system with these diagonals, in time and memory linear in k.
+
+    Cyclic reduction (Golub and Van Loan, Matrix Computations, 4th ed., §4.5): every other unknown is expressed by its
+    two neighbours, which leaves such a system of half the size. The ends stay, for their rows are not dominated by the
+    diagonal; all others are, so that nothing has to be exchanged.
+    """
     if len(middle) <= _DENSE:
         return np.asarray(np.linalg.solve(np.diag(below, -1) + np.diag(middle) + np.diag(above, 1), right))
-    from scipy.linalg import solve_banded  # half a second of imports that a short spline does without
-
-    bands = np.array([np.append(0.0, above), middle, np.append(below, 0.0)])
-    return np.asarray(solve_banded((1, 1), bands, right))
+    gone = np.arange(1, len(middle) - 1, 2)
+    stays = np.delete(np.arange(len(middle)), gone)
+    left, up = below[gone - 1] / middle[gone], above[gone] / middle[gone]  # x[gone] = known - left x[-1] - up x[+1]
+    known = right[gone] / middle[gone, None]
+    diagonal, rest = middle.copy(), right.copy()
+    diagonal[gone - 1] -= above[gone - 1] * left
+    diagonal[gone + 1] -= below[gone] * up
+    rest[gone - 1] -= above[gone - 1, None] * known
+    rest[gone + 1] -= below[gone, None] * known
+    lower, upper = below.copy(), above.copy()
+    upper[gone - 1], lower[gone] = -above[gone - 1] * up, -below[gone] * left
+    solution = np.empty_like(right)
+    solution[stays] = _tridiagonal(lower[stays[1:] - 1], diagonal[stays], upper[stays[:-1]], rest[stays])
+    solution[gone] = known - left[:, None] * solution[gone - 1] - up[:, None] * solution[gone + 1]
+    return solution
 
 
 def _not_a_knot(h0: float, h1: float, rise0: FloatArray, rise1: FloatArray) -> tuple[list[float], FloatArray]:

@@ -40,10 +40,9 @@ _DIGITS = 5.1e-5  # [m] four decimals of them are known
 
 def _parts() -> str:
     import PySide6
-    import scipy
 
     kind = "a bundle" if _in_bundle() else "installed" if _in_wheel() else "a checkout"
-    libraries = f"numpy {np.__version__}, scipy {scipy.__version__}, Qt for Python {PySide6.__version__}"
+    libraries = f"numpy {np.__version__}, Qt for Python {PySide6.__version__}"
     return f"rvsim {__version__}, {kind}; Python {platform.python_version()}, {libraries}"
 
 
@@ -176,7 +175,7 @@ def _smooth_motion() -> str:
     one = np.ones(1)
     law = jerk_limited(0.0, [0.0], [1.0], Limits(one, one, one))
     expect(abs(law.end - 3.1748) < 1e-4, f"the quickest move takes {law.end} s instead of 3.1748 s")
-    x = np.linspace(0.0, 3.0, 2001)  # so many that SciPy solves them
+    x = np.linspace(0.0, 3.0, 2001)  # so many that the system is reduced first
     error = float(np.abs(spline_points(x, np.sin(x)[:, None], [1.5])[0, 0] - np.sin(1.5)))
     expect(error < 1e-12, f"a spline through {len(x)} points of a sine is {error:.1e} away from it")
     return f"1 rad within 1 rad/s, 1 rad/s², 1 rad/s³ in {law.end:.4f} s; a spline through {len(x)} points"

@@ -65,7 +65,7 @@ def test_the_spline_draws_the_letter_as_matlab_does() -> None:
     assert np.allclose(drawn, np.column_stack([oracle["xx"], oracle["yy"]]), atol=1e-12)
 
 
-@pytest.mark.parametrize("count", [4, 5, 9])
+@pytest.mark.parametrize("count", [4, 5, 9, 100, 101, 402, 5003])
 def test_the_spline_is_the_not_a_knot_spline_between_and_beyond_uneven_knots(count: int) -> None:
     generator = np.random.default_rng(count)
     knots, values = np.cumsum(generator.uniform(0.2, 2.0, count)), generator.normal(size=(count, 2))

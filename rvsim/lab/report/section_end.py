@@ -13,7 +13,7 @@ from rvsim.lab.report.values import Items, Paragraph, Run, Section
 from rvsim.language import tr
 
 _LENGTHS = {"mm": "millimetres", "m": "metres"}
-_PARTS = ("numpy", "scipy", "PySide6-Essentials", "ruckig", "ziamath")
+_PARTS = ("numpy", "PySide6-Essentials", "ruckig", "ziamath")
 
 
 def versions() -> tuple[tuple[str, str], ...]:
