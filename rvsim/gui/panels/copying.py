@@ -13,7 +13,10 @@ from rvsim.language import tr
 
 
 class CopyButton(QToolButton):
-    """Offers to copy `what` as each of `formats`, name → maker of the text, and tells the session when it has."""
+    """Offers to copy `what` as each of `formats`, name → maker of the text, and tells the session when it has.
+
+    The formats' names are English; what is copied is for other programs, and stays English too.
+    """
 
     def __init__(
         self,
@@ -30,11 +33,13 @@ class CopyButton(QToolButton):
         # The arrow is a part of the word: the style's own hangs in the corner.
         self.setStyleSheet("QToolButton::menu-indicator { image: none; width: 0; }")
         self.setAccessibleName(tr("Copy {what}", what=what))
-        self.setToolTip(tr("Copy {what} in full precision as {formats}", what=what, formats=", ".join(self._formats)))
+        self.setToolTip(
+            tr("Copy {what} in full precision as {formats}", what=what, formats=tr(", ").join(map(tr, formats)))
+        )
         self.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QMenu(self)
         for format_name in self._formats:
-            action = menu.addAction(f"As {format_name}")
+            action = menu.addAction(tr("As {format}", format=tr(format_name)))
             action.setObjectName(f"{name}_{format_name.lower()}")
             action.triggered.connect(lambda _checked=False, chosen=format_name: self.copy_as(chosen))
         self.setMenu(menu)
@@ -47,4 +52,4 @@ class CopyButton(QToolButton):
                 around.catch_up()
             around = around.parentWidget()
         QGuiApplication.clipboard().setText(self._formats[format_name]())
-        self._session.say(tr("Copied {what} as {format_name}.", what=self._what, format_name=format_name))
+        self._session.say(tr("Copied {what} as {format}.", what=self._what, format=tr(format_name)))

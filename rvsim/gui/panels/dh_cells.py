@@ -25,7 +25,17 @@ from rvsim.robot.edits import DHKey
 
 _LIMITS = {"lower": -math.inf, "upper": math.inf}
 _NONE = frozenset({"none", "no", "inf", "-inf", "\u2212inf", "+inf", "∞", "-∞", "\u2212∞", "+∞"})
-_TITLES = {"lower": tr_later("The lower limit"), "upper": tr_later("The upper limit"), "home": tr_later("The home")}
+_TITLES = {
+    "lower": tr_later("The lower limit of “{joint}”"),
+    "upper": tr_later("The upper limit of “{joint}”"),
+    "home": tr_later("The home of “{joint}”"),
+}
+_EDITS = {
+    "lower": tr_later("Edit the lower limit of “{joint}” of {robot}"),
+    "upper": tr_later("Edit the upper limit of “{joint}” of {robot}"),
+    "home": tr_later("Edit the home of “{joint}” of {robot}"),
+}
+_NO_LIMIT = tr_later("none")
 _LETTERS = {"theta": "θ", "d": "d", "a": "a", "alpha": "α"}
 _LARGEST = 1e4  # [rad, m]: beyond this a number is a slip of the keyboard
 
@@ -50,17 +60,33 @@ def cell_value(robot: Robot, joint: int, key: DHKey) -> float:
 
 
 def cell_title(robot: Robot, joint: int, key: DHKey) -> str:
-    """What a sentence calls the cell: "a₂ of the shoulder", "The upper limit of the elbow"."""
+    """What a sentence calls the cell: "a₂ of “shoulder”", "The upper limit of “elbow”"."""
+    name = tr(robot.joint_names[joint])
+    if key in _TITLES:
+        return tr(_TITLES[key], joint=name)
+    return tr("{letter} of “{joint}”", letter=_letter(robot, joint, key), joint=name)
+
+
+def edit_title(robot: Robot, joint: int, key: DHKey) -> str:
+    """What an edit of the cell is called: "Edit a₂ of “shoulder” of RV-M1"."""
+    name = tr(robot.joint_names[joint])
+    if key in _EDITS:
+        return tr(_EDITS[key], joint=name, robot=robot.title)
+    letter = _letter(robot, joint, key)
+    return tr("Edit {letter} of “{joint}” of {robot}", letter=letter, joint=name, robot=robot.title)
+
+
+def _letter(robot: Robot, joint: int, key: DHKey) -> str:
+    """The letter of a DH value with its index."""
     shifted = robot.convention == "modified" and key in ("a", "alpha")
-    letter = _LETTERS.get(key, "") + subscript(joint if shifted else joint + 1)
-    return f"{_TITLES.get(key, letter)} of “{robot.joint_names[joint]}”"
+    return _LETTERS[key] + subscript(joint if shifted else joint + 1)
 
 
 def cell_text(robot: Robot, joint: int, key: DHKey, preferences: Preferences) -> str:
     """The text in a cell; where q is added to the value it says so: "q₁ + 90.0°"."""
     value = cell_value(robot, joint, key)
     if math.isinf(value):
-        return "none"
+        return tr(_NO_LIMIT)
     kind = cell_kind(robot, joint, key)
     shown = display(kind, preferences)
     lengths_have_their_unit_above = key in ("d", "a")
@@ -74,7 +100,7 @@ def edit_text(robot: Robot, joint: int, key: DHKey, preferences: Preferences) ->
     """The bare number that an edit begins with, in full precision."""
     value = cell_value(robot, joint, key)
     shown = display(cell_kind(robot, joint, key), preferences)
-    return "none" if math.isinf(value) else f"{value * shown.factor:.12g}"
+    return tr(_NO_LIMIT) if math.isinf(value) else f"{value * shown.factor:.12g}"
 
 
 def typed(robot: Robot, joint: int, key: DHKey, text: str, preferences: Preferences) -> Typed:
@@ -82,7 +108,7 @@ def typed(robot: Robot, joint: int, key: DHKey, text: str, preferences: Preferen
     title = cell_title(robot, joint, key)
     shown = display(cell_kind(robot, joint, key), preferences)
     bare = without_unit(text, shown.suffix)
-    if bare.lower() in _NONE:
+    if bare.lower() in _NONE or bare == tr(_NO_LIMIT):
         return _no_limit(title, key)
     try:
         value = evaluate_in(shown.suffix.strip(), bare) / shown.factor
@@ -123,35 +149,36 @@ def _objection(robot: Robot, joint: int, key: DHKey, value: float, shown: Displa
     row, title = robot.joints[joint], cell_title(robot, joint, key)
 
     def text(number: float) -> str:
-        return "none" if math.isinf(number) else format_number(number * shown.factor, shown.decimals) + shown.suffix
+        return (
+            tr(_NO_LIMIT) if math.isinf(number) else format_number(number * shown.factor, shown.decimals) + shown.suffix
+        )
 
     if abs(value) > _LARGEST:
         return tr(
-            "{title} stays as it was: {value:g}{suffix} is too large for an arm.",
+            "{title} stays as it was: {number} is too large for an arm.",
             title=title,
-            value=value * shown.factor,
-            suffix=shown.suffix,
+            number=f"{value * shown.factor:g}{shown.suffix}",
         )
     if key == "lower" and value >= row.upper:
         return tr(
-            "{title} must lie below the upper limit, {text}; {text2} does not.",
+            "{title} must lie below the upper limit, {upper}; {number} does not.",
             title=title,
-            text=text(row.upper),
-            text2=text(value),
+            upper=text(row.upper),
+            number=text(value),
         )
     if key == "upper" and value <= row.lower:
         return tr(
-            "{title} must lie above the lower limit, {text}; {text2} does not.",
+            "{title} must lie above the lower limit, {lower}; {number} does not.",
             title=title,
-            text=text(row.lower),
-            text2=text(value),
+            lower=text(row.lower),
+            number=text(value),
         )
     if key == "home" and not row.lower <= value <= row.upper:
         return tr(
-            "{title} must lie within the limits, {text} … {text2}; {text3} does not.",
+            "{title} must lie within the limits, {lower} … {upper}; {number} does not.",
             title=title,
-            text=text(row.lower),
-            text2=text(row.upper),
-            text3=text(value),
+            lower=text(row.lower),
+            upper=text(row.upper),
+            number=text(value),
         )
     return ""

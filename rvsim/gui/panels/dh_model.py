@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
@@ -12,7 +13,7 @@ from rvsim.gui.panels.dh_cells import cell_kind, cell_text, cell_title, cell_val
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, dot
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_quantity, length_kind
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.edits import DH_KEYS, DHKey
 
@@ -20,7 +21,7 @@ _TOP = QModelIndex()
 
 
 class Column(NamedTuple):
-    """A column: its key, its header in either convention, and what the header's tooltip says."""
+    """A column: its key, its header in either convention, and what the header's tooltip says; in English."""
 
     key: str
     standard: str
@@ -30,19 +31,24 @@ class Column(NamedTuple):
 
 COLUMNS = (
     Column("number", "i", "i", tr_later("The joint's number")),
-    Column("type", "type", "type", tr_later("R: revolute, it turns about z; P: prismatic, it slides along z")),
+    Column(
+        "type",
+        tr_later("type"),
+        tr_later("type"),
+        tr_later("R: revolute, it turns about z; P: prismatic, it slides along z"),
+    ),
     Column("theta", "θ", "θ", tr_later("Angle about z, from the x axis before to the x axis behind the joint")),
     Column("d", "d", "d", tr_later("Distance along z, between the two x axes")),
     Column("a", "a", "aᵢ₋₁", tr_later("Distance along x, between the two z axes")),
     Column("alpha", "α", "αᵢ₋₁", tr_later("Angle about x, between the two z axes")),
-    Column("name", "joint", "joint", tr_later("The joint's name")),
-    Column("lower", "lower", "lower", tr_later("The smallest q")),
-    Column("upper", "upper", "upper", tr_later("The largest q")),
-    Column("home", "home", "home", tr_later("q at home")),
+    Column("name", tr_later("joint"), tr_later("joint"), tr_later("The joint's name")),
+    Column("lower", tr_later("lower"), tr_later("lower"), tr_later("The smallest q")),
+    Column("upper", tr_later("upper"), tr_later("upper"), tr_later("The largest q")),
+    Column("home", tr_later("home"), tr_later("home"), tr_later("q at home")),
 )
 DH_COLUMNS = ("number", "type", "theta", "d", "a", "alpha")
 LIMIT_COLUMNS = ("name", "lower", "upper", "home")
-_TYPES = {"revolute": "R", "prismatic": "P"}
+_TYPES = {tr_later("revolute"): "R", tr_later("prismatic"): "P"}
 
 
 def column_of_key(key: str) -> int:
@@ -157,9 +163,9 @@ class DHModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return RIGHT if column.key in DH_KEYS else LEFT
         if role == Qt.ItemDataRole.ToolTipRole:
-            return column.tip
+            return tr(column.tip)
         if role == Qt.ItemDataRole.DisplayRole:
-            text = column.standard if self._robot.convention == "standard" else column.modified
+            text = tr(column.standard if self._robot.convention == "standard" else column.modified)
             unit = display(length_kind(self._robot), self._preferences).suffix.strip()
             return f"{text} {unit}" if column.key in ("d", "a") else text
         return None
@@ -169,9 +175,9 @@ class DHModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.DecorationRole and key != "type":
             return dot(joint.color)
         if role == Qt.ItemDataRole.ToolTipRole:
-            return f"{joint.name}, {joint.type}"
+            return f"{tr(joint.name)}{tr(', ')}{tr(joint.type)}"
         if role == Qt.ItemDataRole.DisplayRole:
-            return {"number": str(index.row() + 1), "type": _TYPES[joint.type], "name": joint.name}[key]
+            return {"number": str(index.row() + 1), "type": _TYPES[joint.type], "name": tr(joint.name)}[key]
         return LEFT if role == Qt.ItemDataRole.TextAlignmentRole else None
 
     def is_assumed(self, joint: int, key: DHKey) -> bool:
@@ -191,8 +197,9 @@ class DHModel(QAbstractTableModel):
     def _tip(self, joint: int, key: DHKey) -> str:
         title = cell_title(self._robot, joint, key)
         full = edit_text(self._robot, joint, key, self._preferences)
-        suffix = display(cell_kind(self._robot, joint, key), self._preferences).suffix if full != "none" else ""
-        parts = [f"{title}: {full}{suffix}."]
+        if math.isfinite(cell_value(self._robot, joint, key)):
+            full = left_to_right(full + display(cell_kind(self._robot, joint, key), self._preferences).suffix)
+        parts = [f"{title}: {full}."]
         if self.is_edited(joint, key):
             parts.append(tr("It was {original}.", original=self._original_text(joint, key)))
         elif self.is_assumed(joint, key):
@@ -201,6 +208,6 @@ class DHModel(QAbstractTableModel):
 
     def _original_text(self, joint: int, key: DHKey) -> str:
         value = cell_value(self._original, joint, key)
-        if abs(value) == float("inf"):
-            return "none"
+        if math.isinf(value):
+            return tr("none")
         return format_quantity(value, cell_kind(self._original, joint, key), self._preferences)

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 from rvsim.errors import RobotDefinitionError
 from rvsim.experiment import Experiment, limit_violations
 from rvsim.gui.panels.copying import CopyButton
-from rvsim.gui.panels.dh_cells import cell_kind, cell_title, cell_value
+from rvsim.gui.panels.dh_cells import cell_kind, cell_title, cell_value, edit_title
 from rvsim.gui.panels.dh_editor import CellDelegate
 from rvsim.gui.panels.dh_model import COLUMNS, DH_COLUMNS, LIMIT_COLUMNS, DHModel, column_of_key
 from rvsim.gui.panels.shown import NUMBER_SETTINGS, ReadOutPanel
@@ -62,7 +62,7 @@ class DHTablePanel(ReadOutPanel):
         self.rows = self._table("dh_table", tr("DH table"), DH_COLUMNS)
         self.limits = self._table("limits_table", tr("Joint limits and home"), LIMIT_COLUMNS)
         self.title, self.convention, self.message, self.legend = ElidedLabel(), QLabel(), QLabel(), QLabel()
-        formats = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
+        formats = {tr_later("text"): self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
         self.copy = CopyButton("dh_copy", tr("the DH table"), formats, session)
         self.save = button(
             "save_robot_button", tr("Save as robot file…"), tr("Keep this arm in a file"), self.ask_and_save
@@ -160,8 +160,10 @@ class DHTablePanel(ReadOutPanel):
             fit_height(table)
             table.setMinimumHeight(table.maximumHeight())
         self.title.setText(robot.title)
-        origin = tr("Edited copy of the {title}.\n", title=original.title) if robot.name != original.name else ""
-        self.convention.setText(origin + CONVENTION_SENTENCES[robot.convention])
+        sentences = [tr(CONVENTION_SENTENCES[robot.convention])]
+        if robot.name != original.name:
+            sentences.insert(0, tr("Edited copy of the {robot}.", robot=original.title))
+        self.convention.setText("\n".join(sentences))
         self.legend.setText(self._legend(robot))
         self.back.setEnabled(self._differs(robot, original))
         self.message.hide()
@@ -202,8 +204,7 @@ class DHTablePanel(ReadOutPanel):
         except RobotDefinitionError as problem:
             self._complain(str(problem))
             return
-        title = cell_title(robot, joint, key)
-        text = tr("Edit {lower}{title} of {title2}", lower=title[0].lower(), title=title[1:], title2=robot.title)
+        text = edit_title(robot, joint, key)
         self._session.edit(text, self._session.experiment.with_robot(robot), merge=f"dh {joint} {key}")
         self._complain(" ".join(self._consequences(before, robot, joint, key)))
 
@@ -212,16 +213,16 @@ class DHTablePanel(ReadOutPanel):
         if key != "home" and after.joints[joint].home != before.joints[joint].home:
             home = format_quantity(after.joints[joint].home, cell_kind(after, joint, "home"), self._preferences)
             yield tr(
-                "{cell_title} moved to {home}, the nearest within the new limits.",
-                cell_title=cell_title(after, joint, "home"),
+                "{cell} moved to {home}, the nearest within the new limits.",
+                cell=cell_title(after, joint, "home"),
                 home=home,
             )
         for violation in limit_violations(after, self._session.q):
             kind = joint_kind(after, violation.joint)
             value, limit = (format_quantity(number, kind, self._preferences) for number in violation[1:])
             yield tr(
-                "“{joint_names}” now stands at {value}, outside its limit {limit}.",
-                joint_names=after.joint_names[violation.joint],
+                "“{joint}” now stands at {value}, outside its limit {limit}.",
+                joint=tr(after.joint_names[violation.joint]),
                 value=value,
                 limit=limit,
             )
@@ -232,9 +233,9 @@ class DHTablePanel(ReadOutPanel):
         """The arm as it was before the edits; an undo step leads back to them."""
         original = self.original
         self._session.edit(
-            tr("Back to the {title}", title=original.title), self._session.experiment.with_robot(original)
+            tr("Back to the {robot}", robot=original.title), self._session.experiment.with_robot(original)
         )
-        self._tell(tr("This is the {title} as it was. Undo brings your edits back.", title=original.title), "good")
+        self._tell(tr("This is the {robot} as it was. Undo brings your edits back.", robot=original.title), "good")
 
     # --- files -----------------------------------------------------------------------------------------------------
 

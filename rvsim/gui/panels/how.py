@@ -18,9 +18,9 @@ from rvsim.gui.quantities import shown_units
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import column_of, scrolled
-from rvsim.kinematics import forward_kinematics
+from rvsim.kinematics import branch_title, forward_kinematics
 from rvsim.lab.worked import WorkedBranch, WorkedSolution, worked_latex, worked_solution
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -54,7 +54,7 @@ class HowPanel(ReadOutPanel):
     def _make_widgets(self) -> None:
         formats = {
             "LaTeX": lambda: self._latex(None),
-            "LaTeX of this way only": lambda: self._latex(self.followed),
+            tr_later("LaTeX of this way only"): lambda: self._latex(self.followed),
         }
         self.copy = CopyButton("how_copy", tr("worked solution"), formats, self._session)
         self.title, self.hint, self.refusal = wrapped_label("title"), wrapped_label("muted"), wrapped_label()
@@ -134,7 +134,7 @@ class HowPanel(ReadOutPanel):
             self.solution = worked_solution(robot, T, q, shown_units(self._preferences))
         except NoClosedFormError as refusal:
             self.solution = None
-            self.refusal.setText(tr("{refusal} The numeric solvers can still find solutions for it.", refusal=refusal))
+            self.refusal.setText(f"{refusal} {tr('The numeric solvers can still find solutions for it.')}")
         self._show()
 
     def _show(self) -> None:
@@ -155,12 +155,15 @@ class HowPanel(ReadOutPanel):
         for widget in (self.tree, self.tree_title, self.copy):
             widget.setVisible(there)
         self.refusal.setVisible(not there)
-        what = tr("the present tool pose") if self._target is None else tr("the target")
-        self.title.setText(tr("From {what} to the joints", what=what))
-        family = self.solution.title if self.solution else self._session.robot.title
-        self.hint.setText(
-            tr("{family}. Branch: {path}.", family=family, path=", ".join(path)) if path else f"{family}."
+        self.title.setText(
+            tr("From the present tool pose to the joints")
+            if self._target is None
+            else tr("From the target to the joints")
         )
+        sentences = [f"{tr(self.solution.title) if self.solution else self._session.robot.title}."]
+        if path:
+            sentences.append(tr("Branch: {branch}.", branch=branch_title(", ".join(path))))
+        self.hint.setText(" ".join(sentences))
 
     def _add_step(self) -> None:
         view = StepView(self.typesetter)
@@ -180,7 +183,7 @@ class HowPanel(ReadOutPanel):
         assert self.solution is not None
         end = next(end for end in self.solution.branches if end.path == path)
         if end.branch is not None:
-            self._session.move_to(end.branch.q, tr("Go to “{label}”", label=end.label))
+            self._session.move_to(end.branch.q, tr("Go to “{branch}”", branch=end.title))
         self.follow(path)
 
     def _latex(self, path: Path | None) -> str:

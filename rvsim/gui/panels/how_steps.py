@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QSizePolicy, QToo
 
 from rvsim.gui.formula_view import EquationsView, Typesetter
 from rvsim.gui.theme import set_role
+from rvsim.kinematics import branch_title
 from rvsim.lab.worked import Step
 from rvsim.language import tr
 
@@ -109,7 +110,7 @@ class WaysRow(QWidget):
             button.deleteLater()
         while self._row.count():
             self._row.takeAt(0)
-        long = sum(len(way[-1]) for way in ways) > _WIDEST_ROW
+        long = sum(len(branch_title(way[-1])) for way in ways) > _WIDEST_ROW
         self._row.setDirection(QBoxLayout.Direction.TopToBottom if long else QBoxLayout.Direction.LeftToRight)
         self.buttons = [self._button(way) for way in ways]
         for button in self.buttons:
@@ -118,11 +119,12 @@ class WaysRow(QWidget):
 
     def _button(self, way: Path) -> QToolButton:
         button = QToolButton()
-        button.setText(f"→ {way[-1]}")
+        button.setText(tr("→ {way}", way=branch_title(way[-1])))
         button.setCheckable(True)
         button.setObjectName(f"how_way_{'_'.join(way)}".replace(" ", "_"))
-        button.setAccessibleName(tr("Follow {way}", way=", ".join(way)))
-        button.setToolTip(tr("Read on with “{way}”; the arm stays where it is", way=", ".join(way)))
+        title = branch_title(", ".join(way))
+        button.setAccessibleName(tr("Follow {way}", way=title))
+        button.setToolTip(tr("Read on with “{way}”; the arm stays where it is", way=title))
         button.clicked.connect(lambda _checked=False: self.followed.emit(way))
         return button
 

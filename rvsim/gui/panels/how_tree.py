@@ -12,11 +12,13 @@ from rvsim.gui.panels.how_steps import Path, wrapped_label
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_quantity, joint_kind
 from rvsim.gui.theme import set_role
+from rvsim.kinematics import branch_title
 from rvsim.lab.worked import WorkedBranch
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
+_NO_BRANCH = tr_later("no branch")
 _HERE = 1e-6  # [rad, m] the arm is on a branch if it is as close as this
 
 
@@ -56,9 +58,9 @@ class BranchTree(QWidget):
             group = [path for path in paths if path[depth : depth + 1] == choice]
             if group[0][depth + 1 :] or not choice:
                 if not choice:
-                    self._add_row(column, group[0], tr("no branch"))
+                    self._add_row(column, group[0], tr(_NO_BRANCH))
                     continue
-                heading = QLabel(choice[0])
+                heading = QLabel(branch_title(choice[0]))
                 column.addWidget(heading)
                 below = QWidget()
                 below.setObjectName("how_twig")
@@ -68,7 +70,7 @@ class BranchTree(QWidget):
                 self._add(inner, group, depth + 1)
                 column.addWidget(below)
             else:
-                self._add_row(column, group[0], choice[0])
+                self._add_row(column, group[0], branch_title(choice[0]))
 
     def _add_row(self, column: QVBoxLayout, path: Path, name: str) -> None:
         row = BranchRow(path, name)
@@ -109,7 +111,7 @@ class BranchRow(QWidget):
         self.state.setText(state)
         set_role(self.state, level=level)
         self.button.setToolTip(tip)
-        self.button.setAccessibleName(f"{end.label or 'no branch'}: {state.strip('●✓✕ ')}")
+        self.button.setAccessibleName(f"{end.title or tr(_NO_BRANCH)}: {state.strip('●✓✕ ')}")
         lines = [] if end.branch is None else [_joints(robot, end.branch.q, preferences)]
         self.detail.setText("\n".join([*lines, *([end.reason] if end.reason else [])]))
 
@@ -126,7 +128,8 @@ def _state(q: FloatArray, end: WorkedBranch) -> tuple[str, str, str]:
 
 
 def _joints(robot: Robot, q: FloatArray, preferences: Preferences) -> str:
-    return "  ".join(format_quantity(v, joint_kind(robot, i), preferences) for i, v in enumerate(q.tolist()))
+    texts = (format_quantity(v, joint_kind(robot, i), preferences) for i, v in enumerate(q.tolist()))
+    return left_to_right("  ".join(texts))
 
 
 def _column(widget: QWidget) -> QVBoxLayout:

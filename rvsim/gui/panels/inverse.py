@@ -22,7 +22,7 @@ from rvsim.gui.target_scene import PANEL
 from rvsim.gui.target_solution import CLOSED_FORM, PLACES, SOLVER_TITLES, TASK_TITLES, Answer, NearestPose
 from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, column_of, combo, form, scrolled, select
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot.arrays import FloatArray
 
 _AXES = ("x", "y", "z")
@@ -90,7 +90,7 @@ class TargetSection(QWidget):
             with QSignalBlocker(box):
                 box.clear()
                 for name in names:
-                    box.addItem(titles.get(name, name), name)
+                    box.addItem(tr(titles.get(name, name)), name)
             select(box, chosen)
         self.solver.setToolTip(
             offer.no_closed_form or tr("A closed form gives every branch; the others iterate to one")
@@ -101,7 +101,7 @@ class TargetSection(QWidget):
 
     def show_target(self, T: FloatArray) -> None:
         """Show a target (4, 4)."""
-        self.angles.set_free(_FREE if self._control.task in PLACES else "")
+        self.angles.set_free(tr(_FREE) if self._control.task in PLACES else "")
         self.position.show_values(T[:3, 3])
         self.angles.show_rotation(T[:3, :3])
 
@@ -110,15 +110,13 @@ class TargetSection(QWidget):
         name = self._preferences["orientation"]
         shown = "rpy" if name == MATRIX else name
         select(self.notation, shown)
-        self.notation.setToolTip(
-            tr("Notation of the orientation. {convention}", convention=tr(NOTATIONS[shown].convention))
-        )
+        self.notation.setToolTip(f"{tr('Notation of the orientation')}. {tr(NOTATIONS[shown].convention)}")
         self.angles.show_notation(shown)
 
     def _want(self, R: FloatArray, name: str) -> None:
         T = np.eye(4)
         T[:3, :3], T[:3, 3] = R, self.position.values
-        self._control.set_target(Wish(T, tr("Target {name}", name=name), tr("target {name}", name=name)))
+        self._control.set_target(Wish(T, tr("Target {coordinate}", coordinate=tr(name)), f"target {name}"))
 
     def ask_matrix(self) -> None:
         """Ask for a matrix."""
@@ -165,7 +163,7 @@ class WhyNot(QFrame):
         self.accept.setVisible(answer.missed)
         self.accept.setEnabled(nearest is not None)
         self.left.setVisible(answer.missed)
-        self.left.setText(_SOUGHT[answer.hurried] if nearest is None else self._left(nearest))
+        self.left.setText(tr(_SOUGHT[answer.hurried]) if nearest is None else self._left(nearest))
 
     def _left(self, nearest: NearestPose) -> str:
         place = format_quantity(nearest.position_error, length_kind(self._control.session.robot), self._preferences)
@@ -261,7 +259,7 @@ class InversePanel(QWidget):
         )
 
     def _show_detail(self) -> None:
-        hint = _HINT if self.model.rows else ""
+        hint = tr(_HINT) if self.model.rows else ""
         self.detail.setText(self.model.words_of(self._control.lit) or hint)
 
     def _on_preference(self, name: str) -> None:
@@ -303,14 +301,15 @@ def _numeric_note(answer: Answer, preferences: Preferences) -> str:
         (found.position_error, length_kind(answer.question.robot)),
         (found.rotation_error, "angle"),
     )
-    words = ", ".join(_error(value, display(kind, preferences)) for value, kind in errors)
-    return tr(
-        "{iterations} iterations, {elapsed:.1f} ms, errors {words}. {reason}",
-        iterations=found.iterations,
-        elapsed=found.elapsed * 1000.0,
-        words=words,
-        reason=found.reason,
+    words = tr(", ").join(_error(value, display(kind, preferences)) for value, kind in errors)
+    effort = trn(
+        "{n} iteration, {time:.1f} ms, errors {errors}.",
+        "{n} iterations, {time:.1f} ms, errors {errors}.",
+        found.iterations,
+        time=1e3 * found.elapsed,
+        errors=words,
     )
+    return f"{effort} {found.reason}"
 
 
 def _error(value: float, shown: Display) -> str:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 
 import numpy as np
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QVBoxLayout, QWidget
 
 from rvsim.errors import PoseError
 from rvsim.gui.text_box import TextBox
 from rvsim.gui.theme import set_role
-from rvsim.language import tr
+from rvsim.language import tr, trn
 from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import nearest_rotation
 
@@ -83,7 +83,7 @@ def _assembled(rows: list[list[float]], T: FloatArray, factor: float) -> FloatAr
     if shape in ((4, 4, 4, 4), (4, 4, 4)):
         if len(rows) == 4 and rows[3] != [0.0, 0.0, 0.0, 1.0]:
             raise PoseError(
-                tr("its last row must be 0 0 0 1, but is {rows}.", rows=" ".join(f"{number:g}" for number in rows[3]))
+                tr("its last row must be 0 0 0 1, but is {row}.", row=" ".join(f"{number:g}" for number in rows[3]))
             )
         pose[:3] = rows[:3]
     elif shape in ((3, 3, 3, 3), (3, 3, 3, 1, 1, 1)):
@@ -101,14 +101,10 @@ def _assembled(rows: list[list[float]], T: FloatArray, factor: float) -> FloatAr
 def _found(shape: tuple[int, ...]) -> str:
     wanted = tr("It takes 4 rows of 4 numbers, 3 rows of 4, 3 rows of 3 and a position, or 3 rows of 3.")
     if not shape:
-        return tr("there are no numbers in it. {wanted}", wanted=wanted)
-    return tr(
-        "found {count} row{value} of {map} numbers. {wanted}",
-        count=len(shape),
-        value="s" * (len(shape) > 1),
-        map=", ".join(map(str, shape)),
-        wanted=wanted,
-    )
+        return f"{tr('there are no numbers in it.')} {wanted}"
+    counts = ", ".join(map(str, shape))
+    found = trn("found {n} row of {counts} numbers.", "found {n} rows of {counts} numbers.", len(shape), counts=counts)
+    return f"{found} {wanted}"
 
 
 class MatrixDialog(QDialog):
@@ -125,6 +121,7 @@ class MatrixDialog(QDialog):
         self.text.setObjectName("matrix_text")
         self.text.setAccessibleName(tr("Matrix"))
         self.text.setPlaceholderText(_EXAMPLE)
+        self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.problem = QLabel(wordWrap=True)
         self.problem.setObjectName("matrix_problem")
         set_role(self.problem, level="error")

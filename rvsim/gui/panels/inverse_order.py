@@ -21,6 +21,8 @@ from rvsim.gui.widgets import button
 from rvsim.kinematics import ORDER_CRITERIA
 from rvsim.language import tr
 
+_NAME = Qt.ItemDataRole.UserRole  # of a criterion, in English
+
 
 class OrderList(QListWidget):
     """The criteria, the most important first; only the ticked ones count. `changed()` tells another order."""
@@ -34,7 +36,8 @@ class OrderList(QListWidget):
         self.setDragDropMode(QAbstractItemView.DragDropMode.InternalMove)
         self.setDefaultDropAction(Qt.DropAction.MoveAction)
         for name in (*order, *(name for name in ORDER_CRITERIA if name not in order)):
-            item = QListWidgetItem(name)
+            item = QListWidgetItem(tr(name))
+            item.setData(_NAME, name)
             item.setFlags(item.flags() | Qt.ItemFlag.ItemIsUserCheckable & ~Qt.ItemFlag.ItemIsDropEnabled)
             item.setCheckState(Qt.CheckState.Checked if name in order else Qt.CheckState.Unchecked)
             self.addItem(item)
@@ -46,7 +49,7 @@ class OrderList(QListWidget):
     def order(self) -> tuple[str, ...]:
         """The ticked criteria."""
         items = [self.item(row) for row in range(self.count())]
-        return tuple(item.text() for item in items if item.checkState() == Qt.CheckState.Checked)
+        return tuple(str(item.data(_NAME)) for item in items if item.checkState() == Qt.CheckState.Checked)
 
     def sizeHint(self) -> QSize:
         """As high as its rows."""
@@ -88,8 +91,8 @@ class OrderButton(QToolButton):
         )
         set_role(what, role="muted")
         row = QHBoxLayout()
-        row.addWidget(button("order_up_button", "↑ Up", tr("More important"), lambda: self.list.shift(-1)))
-        row.addWidget(button("order_down_button", "↓ Down", tr("Less important"), lambda: self.list.shift(1)))
+        row.addWidget(button("order_up_button", tr("↑ Up"), tr("More important"), lambda: self.list.shift(-1)))
+        row.addWidget(button("order_down_button", tr("↓ Down"), tr("Less important"), lambda: self.list.shift(1)))
         row.addStretch(1)
         column = QVBoxLayout(popup)
         column.addWidget(what)
@@ -111,6 +114,6 @@ class OrderButton(QToolButton):
             self.order_changed.emit(self.list.order)
 
     def _show(self) -> None:
-        text = " › ".join(self.list.order) or tr("as they come")
-        self.setText(tr("Order: {text} ▾", text=text))
-        self.setToolTip(tr("The best branch: {text}. Press to change the order.", text=text))
+        order = " › ".join(map(tr, self.list.order)) or tr("as they come")
+        self.setText(tr("Order: {order} ▾", order=order))
+        self.setToolTip(tr("The best branch: {order}. Press to change the order.", order=order))

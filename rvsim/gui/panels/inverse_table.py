@@ -36,8 +36,9 @@ from rvsim.gui.quantities import (
     format_scientific,
     joint_kind,
 )
+from rvsim.gui.target_solution import label_title
 from rvsim.kinematics import Branch
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot import Robot
 
 SORT_ROLE = Qt.ItemDataRole.UserRole
@@ -85,7 +86,7 @@ def columns_of(robot: Robot, preferences: Preferences) -> tuple[Column, ...]:
         return _title(row) + stop
 
     first = Column(
-        "#", tr("The number of the branch, as in the scene. {sort}", sort=_SORT), branch, lambda row: row.name, "⑧"
+        "#", f"{tr('The number of the branch, as in the scene.')} {tr(_SORT)}", branch, lambda row: row.name, "⑧"
     )
     joints = (_joint_column(robot, joint, preferences) for joint in range(robot.dof))
     return (first, *joints, *_verdict_columns(robot, preferences))
@@ -93,14 +94,14 @@ def columns_of(robot: Robot, preferences: Preferences) -> tuple[Column, ...]:
 
 def _title(row: Row) -> str:
     endless = " ∞" if row.branch.continuum else ""
-    return f"{circled(row.name)} {row.branch.label}{endless}"
+    return f"{circled(row.name)} {label_title(row.branch.label)}{endless}"
 
 
 def _joint_column(robot: Robot, joint: int, preferences: Preferences) -> Column:
     shown = display(joint_kind(robot, joint), preferences)
     return Column(
         f"J{joint + 1} {shown.suffix.strip()}",
-        f"{robot.joint_names[joint]} [{shown.suffix.strip()}]. {_SORT}",
+        f"{tr(robot.joint_names[joint])} [{shown.suffix.strip()}]. {tr(_SORT)}",
         lambda row: format_number(float(row.branch.q[joint]) * shown.factor, shown.decimals),
         lambda row: float(row.branch.q[joint]),
         format_number(-888.8 if shown.factor > 1.0 else -8.8888, shown.decimals),
@@ -112,18 +113,20 @@ def _verdict_columns(robot: Robot, preferences: Preferences) -> tuple[Column, ..
         return format_quantity(float(values[joint]), joint_kind(robot, joint), preferences).replace("inf", "∞")
 
     def verdict(row: Row) -> str:
-        return "within" if row.branch.within_limits else limit_words(robot, row.branch, preferences, "\n")
+        return tr("within") if row.branch.within_limits else limit_words(robot, row.branch, preferences, "\n")
 
     return (
-        Column("limits", tr("Whether every joint is within its limits, or which is not"), verdict, _outside, left=True),
         Column(
-            "margin",
+            tr("limits"), tr("Whether every joint is within its limits, or which is not"), verdict, _outside, left=True
+        ),
+        Column(
+            tr("margin"),
             tr("How far the joint nearest to a limit is from it; negative outside"),
             lambda row: of_joint(row.branch.limit_margin, int(np.argmin(row.branch.limit_margin))),
             lambda row: float(row.branch.limit_margin.min()),
         ),
         Column(
-            "moves",
+            tr("moves"),
             tr("The largest joint motion from where the arm is"),
             lambda row: _distance_text(robot, row.branch, preferences),
             lambda row: row.branch.distance,
@@ -135,7 +138,7 @@ def _verdict_columns(robot: Robot, preferences: Preferences) -> tuple[Column, ..
             lambda row: row.branch.manipulability,
         ),
         Column(
-            "residual",
+            tr("residual"),
             tr("The largest entry of |FK(q) − T| that was asked for"),
             lambda row: format_scientific(row.branch.residual),
             lambda row: row.branch.residual,
@@ -232,27 +235,22 @@ class BranchModel(QAbstractTableModel):
         limits = limit_words(self._robot, branch, self._preferences) or (
             tr("within limits, {margin}", margin=margin_words(self._robot, branch, self._preferences))
         )
-        here = (
-            tr("the arm is here")
-            if row.here
-            else tr("moves {distance}", distance=_distance_text(self._robot, branch, self._preferences))
+        distance = _distance_text(self._robot, branch, self._preferences)
+        parts = (
+            f"{_title(row)}: {limits}",
+            tr("the arm is here") if row.here else tr("moves {distance}", distance=distance),
+            left_to_right(f"w = {branch.manipulability:.4f}"),
+            tr("residual {number}", number=format_scientific(branch.residual)),
         )
-        parts = (f"{_title(row)}: {limits}", here, f"w = {branch.manipulability:.4f}")
-        endless = f" {_CONTINUUM}" if branch.continuum else ""
-        return tr(
-            "{parts}, residual {format_scientific}.{endless} {note}",
-            parts=", ".join(parts),
-            format_scientific=format_scientific(branch.residual),
-            endless=endless,
-            note=row.note,
-        ).rstrip()
+        sentences = (f"{tr(', ').join(parts)}.", tr(_CONTINUUM) if branch.continuum else "", row.note)
+        return " ".join(sentence for sentence in sentences if sentence)
 
     def text_of(self, row: Row) -> RowText:
         """What is written in a row that is seen."""
         endless = " ∞" if row.branch.continuum else ""
         stop = "" if row.branch.within_limits else short_limit_words(self._robot, row.branch, self._preferences)
         numbers = tuple(column.text(row) for column in self.columns[1 : 1 + self._robot.dof])
-        return RowText(circled(row.name), row.branch.label + endless, stop, numbers, row.usable, row.here)
+        return RowText(circled(row.name), label_title(row.branch.label) + endless, stop, numbers, row.usable, row.here)
 
     def words_of(self, name: str | None) -> str:
         """The whole verdict of the branch of that name, else of the one where the arm is, or of the only row."""
@@ -286,6 +284,7 @@ class BranchTable(QTableView):
     def __init__(self, model: BranchModel, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("branch_table")
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers, in any language
         self.setAccessibleName(tr("Branches"))
         self.branches = model
         self._sorted = QSortFilterProxyModel(self)

@@ -2,204 +2,47 @@
 
 from __future__ import annotations
 
-import math
 import secrets
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QEvent, QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtGui import QColor
+from PySide6.QtCore import QSignalBlocker, QSize, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
     QHBoxLayout,
     QInputDialog,
-    QLabel,
-    QSizePolicy,
-    QSlider,
     QVBoxLayout,
     QWidget,
 )
 
 from rvsim.experiment import Experiment, random_pose
-from rvsim.gui.panels.joint_box import JointBox
-from rvsim.gui.panels.tables import text_metrics
+from rvsim.gui.panels.joint_row import IGNORE_HINT, JointRow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, joint_kind
 from rvsim.gui.session import Session
-from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button, combo, scrolled
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_IGNORE_HINT = tr_later("Switch “Ignore limits” on to go there.")
 _SERVO_HINTS = {  # by whether the servo narrows the lower limit, and the upper one
-    (False, False): _IGNORE_HINT,
+    (False, False): IGNORE_HINT,
     (True, False): tr_later("Below that the servo of the connected arm does not reach."),
     (False, True): tr_later("Above that the servo of the connected arm does not reach."),
     (True, True): tr_later("The servo of the connected arm does not reach it."),
 }
 _SHORTEST_NAME = 4  # letters of a pose's name that can be read at least
-_LONGEST = "−1000.0 mm"
-_SLIDER_STEPS = {"angle": math.radians(0.1), "length": 1e-4, "unit_length": 1e-3}
-
-
-def slider_range(robot: Robot, joint: int, ignore_limits: bool) -> tuple[float, float]:
-    """The span of a joint's slider [rad, m]: its limits, or a full turn or the arm's size where there are none."""
-    lower, upper = robot.limits[joint]
-    free = 2 * math.pi if robot.joints[joint].continuous else math.pi
-    free = free if robot.joints[joint].revolute else robot.size
-    if ignore_limits or math.isinf(lower):
-        lower = min(lower, -free) if math.isfinite(lower) else -free
-    if ignore_limits or math.isinf(upper):
-        upper = max(upper, free) if math.isfinite(upper) else free
-    return float(lower), float(upper)
-
-
-class JointRow(QWidget):
-    """One joint: name in its colour, value box, slider between its written limits.
-
-    `moved(index, value)` tells a new value [rad, m]; `released()` that a drag or an edit is over.
-    """
-
-    moved = Signal(int, float)
-    released = Signal()
-    refused = Signal(str)
-
-    def __init__(self, robot: Robot, index: int, preferences: Preferences) -> None:
-        super().__init__()
-        self._robot, self._index, self._preferences = robot, index, preferences
-        self._kind = joint_kind(robot, index)
-        joint = robot.joints[index]
-        title = f"J{index + 1} {joint.name}"
-        self.box = JointBox(robot, index, preferences, title)
-        self.box.setObjectName(f"joint_value_{index + 1}")
-        self.slider = QSlider(Qt.Orientation.Horizontal)
-        self.slider.setObjectName(f"joint_slider_{index + 1}")
-        self.slider.setAccessibleName(tr("{title}, slider", title=title))
-        self._lower, self._upper = QLabel(), QLabel()
-        self._mark = QLabel("⚠")
-        self._step = _SLIDER_STEPS[self._kind]
-        self._lay_out(title, joint.color)
-        self._size_box()
-        self.slider.valueChanged.connect(self._on_slider)
-        self.slider.sliderReleased.connect(self.released)
-        self.box.quantity_changed.connect(self._on_box)
-        self.box.editingFinished.connect(self.released)
-        self.box.refused.connect(self.refused)
-
-    def _lay_out(self, title: str, color: str) -> None:
-        chip = QLabel()
-        chip.setFixedSize(10, 10)
-        chip.setStyleSheet(f"background: {color}; border-radius: 5px;")
-        name = QLabel(title)
-        name.setBuddy(self.box)
-        name.setMinimumWidth(0)
-        name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        for label in (self._lower, self._upper):
-            set_role(label, role="muted")
-        set_role(self._mark, level="error")
-        self._mark.setToolTip(tr("{title} is outside its limits", title=title))
-        self._mark.setAccessibleName(tr("{title} is outside its limits", title=title))
-        self._mark.hide()
-        self.slider.setStyleSheet(_slider_style(color))
-        top = QHBoxLayout()
-        top.setSpacing(8)
-        top.addWidget(chip)
-        top.addWidget(name, 1)
-        top.addWidget(self._mark)
-        top.addWidget(self.box)
-        bottom = QHBoxLayout()
-        bottom.setSpacing(6)
-        bottom.addWidget(self._lower)
-        bottom.addWidget(self.slider, 1)
-        bottom.addWidget(self._upper)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addLayout(top)
-        column.addLayout(bottom)
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Larger digits need a wider box."""
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange:
-            self._size_box()
-
-    def _size_box(self) -> None:
-        self.box.setFixedWidth(max(104, text_metrics().horizontalAdvance(_LONGEST) + 18))
-
-    def show_limits(self, ignore_limits: bool, hint: str = _IGNORE_HINT) -> None:
-        """Let box and slider go as far as they may, and write at the slider's ends how far that is.
-
-        Args:
-            hint: a sentence about values beyond the limits.
-        """
-        lower, upper = self._robot.limits[self._index]
-        taken = (-math.inf, math.inf) if ignore_limits else (float(lower), float(upper))
-        self.box.set_range(taken[0], taken[1], hint)
-        shown = display(self._kind, self._preferences)
-        ends = slider_range(self._robot, self._index, ignore_limits)
-        decimals = 0 if self._kind == "angle" and shown.factor != 1.0 else shown.decimals
-        for label, limit, end in zip((self._lower, self._upper), (lower, upper), ends, strict=True):
-            free = math.isinf(limit)
-            label.setText(format_number(end * shown.factor, decimals))
-            label.setToolTip(
-                tr("No limit")
-                if free
-                else tr("Limit: {limit:g}{suffix}", limit=limit * shown.factor, suffix=shown.suffix)
-            )
-        with QSignalBlocker(self.slider):
-            self.slider.setRange(math.ceil(ends[0] / self._step - 1e-6), math.floor(ends[1] / self._step + 1e-6))
-            self.slider.setSingleStep(round(shown.step / shown.factor / self._step) or 1)
-            self.slider.setPageStep(10 * self.slider.singleStep())
-
-    def show_value(self, value: float) -> None:
-        """Show a joint value [rad, m], silently."""
-        self.box.set_quantity(value)
-        with QSignalBlocker(self.slider):
-            # Where limits are ignored a value may lie beyond the slider, and beyond the integers that it counts in.
-            position = min(max(value / self._step, self.slider.minimum()), self.slider.maximum())
-            self.slider.setValue(round(position))
-        lower, upper = self._robot.limits[self._index]
-        outside = not lower - 1e-9 <= value <= upper + 1e-9
-        if outside == self._mark.isHidden():
-            self._mark.setVisible(outside)
-            set_role(self.box, outside=outside)
-
-    def _on_slider(self, position: int) -> None:
-        lower, upper = self.box.limits
-        self.moved.emit(self._index, min(max(position * self._step, lower), upper))
-        if not self.slider.isSliderDown():
-            self.released.emit()
-
-    def _on_box(self, value: float) -> None:
-        self.moved.emit(self._index, value)
-
-
-def _slider_style(color: str) -> str:
-    handle = QColor(color).darker(115).name()
-    return tr(
-        "QSlider {{ min-height: 20px; }}"
-        "QSlider::groove:horizontal {{ height: 4px; border-radius: 2px; background: palette(mid); }}"
-        "QSlider::sub-page:horizontal {{ height: 4px; border-radius: 2px; background: {color}; }}"
-        "QSlider::handle:horizontal {{ width: 14px; height: 14px; margin: -5px 0; border-radius: 7px;"
-        " background: {color}; border: 1px solid {handle}; }}"
-        "QSlider::handle:horizontal:focus {{ border: 2px solid palette(text); }}",
-        color=color,
-        handle=handle,
-    )
 
 
 def _joint_words(robot: Robot, index: int) -> str:
     """ "joint 3 (elbow)", or "joint 3" where its name says no more."""
     name = robot.joint_names[index]
     return (
-        tr("joint {index}", index=index + 1)
+        tr("joint {number}", number=index + 1)
         if name.lower() in (f"joint {index + 1}", f"j{index + 1}")
-        else tr("joint {index} ({name})", index=index + 1, name=name)
+        else tr("joint {number} ({name})", number=index + 1, name=tr(name))
     )
 
 
@@ -381,9 +224,11 @@ class JointsPanel(QWidget):
         typed[index] = value
         name = _joint_words(self._session.robot, index)
         if self._preferences["live"]:
-            self._session.edit(tr("Move {name}", name=name), self._session.experiment.at(typed), merge=f"joint {index}")
+            self._session.edit(
+                tr("Move {joint}", joint=name), self._session.experiment.at(typed), merge=f"joint {index}"
+            )
         else:
-            self._type(tr("Type {name}", name=name), typed, merge=f"type {index}")
+            self._type(tr("Type {joint}", joint=name), typed, merge=f"type {index}")
 
     def _type(self, text: str, typed: FloatArray, merge: str = "") -> None:
         self._session.edit(text, self._session.experiment.with_typed(typed), merge=merge)
@@ -393,14 +238,14 @@ class JointsPanel(QWidget):
         """All joints at once, in the shown units."""
         robot = self._session.robot
         if len(values) != robot.dof:
-            self._session.warn(
-                tr(
-                    "A pose of the {title} has {dof} values, not {count}.",
-                    title=robot.title,
-                    dof=robot.dof,
-                    count=len(values),
-                )
+            text = trn(
+                "A pose of the {robot} has {n} value, not {given}.",
+                "A pose of the {robot} has {n} values, not {given}.",
+                robot.dof,
+                robot=robot.title,
+                given=len(values),
             )
+            self._session.warn(text)
             return
         factors = [display(joint_kind(robot, index), self._preferences).factor for index in range(robot.dof)]
         q = np.divide(values, factors)
@@ -418,16 +263,16 @@ class JointsPanel(QWidget):
         typed = self._session.experiment.typed
         if typed is not None and not self._session.move_to(typed, tr("Plot the typed values")):
             return
-        names = ", ".join(
+        values = ", ".join(
             f"{format_number(value * display(joint_kind(self._session.robot, i), self._preferences).factor, 1)}"
             for i, value in enumerate(self._typed)
         )
-        self._session.say(tr("Plotted the {title} at ({names}).", title=self._session.robot.title, names=names))
+        self._session.say(tr("Plotted the {robot} at ({values}).", robot=self._session.robot.title, values=values))
 
     def go_home(self) -> None:
         """Go to the arm's home pose."""
         if self._session.move_to(self._session.robot.home, tr("Go home")):
-            self._session.say(tr("The {title} is at home.", title=self._session.robot.title))
+            self._session.say(tr("The {robot} is at home.", robot=self._session.robot.title))
 
     def go_zero(self) -> None:
         """Go to q = 0, if the limits allow it."""
@@ -441,7 +286,7 @@ class JointsPanel(QWidget):
         """Save the present pose under a name that the user types."""
         count = len(self._session.experiment.poses) + 1
         name, given = QInputDialog.getText(
-            self, tr("Save pose"), tr("Name of this pose:"), text=tr("pose {count}", count=count)
+            self, tr("Save pose"), tr("Name of this pose:"), text=tr("pose {number}", number=count)
         )
         if given and name.strip():
             self.save_pose_as(name.strip())

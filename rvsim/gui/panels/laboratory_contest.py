@@ -263,7 +263,7 @@ class ContestPage(Page):
     def go_to_result(self) -> None:
         """Let the arm go where the solver that is looked at ended."""
         if (outcome := self.lit) is not None:
-            self._session.move_to(outcome.result.q, tr("Go to the result of {title}", title=outcome.title))
+            self._session.move_to(outcome.result.q, tr("Go to the result of {solver}", solver=tr(outcome.title)))
 
     # --- showing ---------------------------------------------------------------------------------------------------
 
@@ -285,8 +285,8 @@ class ContestPage(Page):
         angle = display("angle", self._preferences)
         histories = {outcome.solver: outcome.result.history for outcome in self.contest.outcomes}
         place, turn = self.plots
-        place.set_titles("", tr("position, {strip}", strip=length.suffix.strip()))
-        turn.set_titles("iteration", tr("rotation, {strip}", strip=angle.suffix.strip()))
+        place.set_titles("", tr("position, {unit}", unit=length.suffix.strip()))
+        turn.set_titles(tr("iteration"), tr("rotation, {unit}", unit=angle.suffix.strip()))
         place.show_curves(
             {name: length.factor * history.position_error for name, history in histories.items()},
             length.factor * trial.options.position_tolerance,
@@ -305,10 +305,10 @@ class ContestPage(Page):
         self.legend.light(chosen)
         self.go_button.setEnabled(outcome is not None)
         if outcome is None or contest is None:
-            self._say(_EMPTY, "")
+            self._say(tr(_EMPTY), "")
             self.iterates_changed.emit(None)
             return
-        self.go_button.setToolTip(tr("Let the arm go where {titles} ended", titles=TITLES[outcome.solver]))
+        self.go_button.setToolTip(tr("Let the arm go where {solver} ended", solver=tr(TITLES[outcome.solver])))
         units = shown_units(self._preferences)
         if chosen:
             self._say(verdict(contest.trial, outcome, units), "good" if outcome.result.converged else "warning")

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QScrollArea, QSize
 
 from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate
-from rvsim.gui.panels.joints import slider_range
+from rvsim.gui.panels.joint_row import slider_range
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import joint_kind
 from rvsim.gui.quantity_box import QuantityBox
@@ -33,6 +33,7 @@ class NumberEdit(QLineEdit):
         self.setAccessibleName(title)
         self.setToolTip(tip or title)
         self.setFont(number_font(self.font()))
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setMinimumWidth(44)
@@ -94,11 +95,12 @@ class ContentArea(QScrollArea):
 
 
 class Disclosure(QToolButton):
-    """Shows and hides what stands below it."""
+    """Shows and hides what stands below it; `show` and `hide` say what a click does then."""
 
-    def __init__(self, name: str, title: str, content: QWidget) -> None:
+    def __init__(self, name: str, show: str, hide: str, content: QWidget) -> None:
         super().__init__()
-        self._title, self._content = title, content
+        self._tips = {False: show, True: hide}
+        self._content = content
         self.setObjectName(name)
         self.clicked.connect(lambda: self.show_content(self._content.isHidden()))
         self.show_content(False)
@@ -106,8 +108,8 @@ class Disclosure(QToolButton):
     def show_content(self, on: bool) -> None:
         """Show or hide."""
         self._content.setVisible(on)
-        self.setText("▾" if on else "▸")
-        self.setAccessibleName(f"{'Hide' if on else 'Show'} {self._title}")
+        self.setText("▾" if on else tr("▸"))
+        self.setAccessibleName(self._tips[on])
         self.setToolTip(self.accessibleName())
 
 
@@ -119,7 +121,7 @@ class StartJoint(QWidget):
     def __init__(self, robot: Robot, index: int, preferences: Preferences) -> None:
         super().__init__()
         self._index, self._ends = index, slider_range(robot, index, False)
-        title = tr("Start of J{index} {joint_names}", index=index + 1, joint_names=robot.joint_names[index])
+        title = tr("Start of J{number} {joint}", number=index + 1, joint=tr(robot.joint_names[index]))
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setObjectName(f"lab_start_slider_{index + 1}")
         self.slider.setAccessibleName(tr("{title}, slider", title=title))

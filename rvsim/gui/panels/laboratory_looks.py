@@ -44,7 +44,7 @@ _MARKERS = {
 
 
 class CurveLook(NamedTuple):
-    """A curve's short name and title, its colours on light and dark ground, dash pattern [widths] and marker."""
+    """A curve's short name and title, its colours on light and dark ground, dash pattern [widths], marker; English."""
 
     short: str
     title: str
@@ -86,10 +86,10 @@ SOURCE_002_LOOKS = {
         tr_later("as printed"), tr_later("As printed: the real arm"), "#b42318", "#ff8a7a", (), "square"
     ),
     "believed": CurveLook(
-        "believed", tr_later("As printed: what it believes"), "#b04a00", "#ffa657", (5.0, 2.5), "triangle"
+        tr_later("believed"), tr_later("As printed: what it believes"), "#b04a00", "#ffa657", (5.0, 2.5), "triangle"
     ),
     "corrected": CurveLook(
-        "corrected", tr_later("Corrected: the real arm"), "#0b5fc0", "#58a6ff", (1.5, 2.0), "circle"
+        tr_later("corrected"), tr_later("Corrected: the real arm"), "#0b5fc0", "#58a6ff", (1.5, 2.0), "circle"
     ),
 }
 
@@ -137,7 +137,8 @@ class Legend(QWidget):
     def __init__(self, looks: dict[str, CurveLook], preferences: Preferences) -> None:
         super().__init__()
         self._looks, self._preferences, self._lit = looks, preferences, ""
-        self.setAccessibleName(tr("Legend: ") + ", ".join(look.title for look in looks.values()))
+        curves = tr(", ").join(tr(look.title) for look in looks.values())
+        self.setAccessibleName(tr("Legend: {curves}", curves=curves))
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
 
     def light(self, name: str) -> None:
@@ -166,9 +167,9 @@ class Legend(QWidget):
 
     def _names(self) -> dict[str, str]:
         metrics = self.fontMetrics()
-        full = {key: look.title for key, look in self._looks.items()}
+        full = {key: tr(look.title) for key, look in self._looks.items()}
         width = sum(_width(text, metrics.horizontalAdvance(text)) for text in full.values())
-        return full if width <= self.width() else {key: look.short for key, look in self._looks.items()}
+        return full if width <= self.width() else {key: tr(look.short) for key, look in self._looks.items()}
 
 
 def _width(text: str, advance: int) -> float:

@@ -33,13 +33,14 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
         self._limit, self._lit = 0.0, ""
         self.setMouseEnabled(x=False, y=False)
         self.setMenuEnabled(False)
+        self.setLayoutDirection(pg.QtCore.Qt.LayoutDirection.LeftToRight)
         self.hideButtons()
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
         self.setLogMode(y=True)
         self.getAxis("left").setWidth(_AXIS_WIDTH)
         self.curves = {name: self.plot(antialias=True) for name in looks}
         ends = {"position": 0.01, "anchors": [(0, 0), (0, 0)]}
-        self.threshold = pg.InfiniteLine(angle=0, label="tolerance", labelOpts=ends)
+        self.threshold = pg.InfiniteLine(angle=0, label=tr("tolerance"), labelOpts=ends)
         self.addItem(self.threshold, ignoreBounds=True)
         self.dress()
 
@@ -51,7 +52,9 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
         """Name the axes."""
         if (below, beside) != self._titles:
             self._titles = (below, beside)
-            self.setAccessibleName(tr("{beside}, by {value}, logarithmic", beside=beside, value=below or "iteration"))
+            self.setAccessibleName(
+                tr("{beside}, by {below}, logarithmic", beside=beside, below=below or tr("iteration"))
+            )
             self.dress()
 
     def show_curves(self, values: Mapping[str, Sequence[float] | FloatArray], limit: float = 0.0) -> None:

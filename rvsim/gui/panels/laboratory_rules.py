@@ -27,7 +27,7 @@ _OWN = "own"
 
 
 class Field(NamedTuple):
-    """One number of `SolverOptions`: its name there and on the screen, what it does, and its kind of quantity."""
+    """One number of `SolverOptions`: its name there and on the screen, what it does, its kind of quantity; English."""
 
     name: str
     title: str
@@ -37,7 +37,7 @@ class Field(NamedTuple):
 
 _FIELDS = (
     Field("max_iterations", "MaxIterations", tr_later("The most iterations, of all tries together")),
-    Field("max_time", tr_later("MaxTime, s"), tr_later("The most seconds, of all tries together")),
+    Field("max_time", "MaxTime, s", tr_later("The most seconds, of all tries together")),
     Field(
         "solution_tolerance",
         "SolutionTolerance",
@@ -55,12 +55,10 @@ _FIELDS = (
     ),
     Field(
         "error_change_tolerance",
-        tr_later("ErrorChangeTol. (LM)"),
+        "ErrorChangeTol. (LM)",
         tr_later("LM ends a try when no entry of the error changes more"),
     ),
-    Field(
-        "damping_bias", tr_later("DampingBias (LM)"), tr_later("The damping of LM that stays when the error is gone")
-    ),
+    Field("damping_bias", "DampingBias (LM)", tr_later("The damping of LM that stays when the error is gone")),
     Field(
         "patience",
         tr_later("Patience"),
@@ -89,11 +87,11 @@ _SWITCHES = (
     ),
     (
         "use_error_damping",
-        tr_later("UseErrorDamping (LM)"),
+        "UseErrorDamping (LM)",
         tr_later("LM damps by the cost plus the bias; off: not at all"),
     ),
 )
-_WEIGHTS = tuple(f"{what} {axis}" for what in ("rotation", "position") for axis in "xyz")
+_WEIGHTS = {"rotation": tr_later("Weight: rotation {axis}"), "position": tr_later("Weight: position {axis}")}
 _WEIGHTS_TIP = tr_later(
     "Weights of the error: first the three of the orientation (rotation about x, y, z), then the three of the position "
     "along x, y, z, in base axes. This order, orientation first, is that of source 000."
@@ -118,13 +116,15 @@ class RulesChooser(QWidget):
         self._session, self._preferences = session, preferences
         self.options: SolverOptions = EXACT.options
         self.task: Task = "pose"
-        names = {preset.title: preset.title for preset in PRESETS}
-        self.presets = combo("lab_rules_selector", tr("Settings of the solvers"), {**names, _OWN: tr("Own settings")})
+        names = {preset.title: preset.title for preset in PRESETS} | {_OWN: tr("Own settings")}
+        self.presets = combo("lab_rules_selector", tr("Settings of the solvers"), names)
         self.presets.activated.connect(self._on_preset)
         self.tasks = combo("lab_task_selector", tr("What of the target counts"), _TASKS)
         self.tasks.activated.connect(self._on_task)
         self.details = QWidget()
-        self.disclosure = Disclosure("lab_rules_details_button", tr("all settings"), self.details)
+        self.disclosure = Disclosure(
+            "lab_rules_details_button", tr("Show all settings"), tr("Hide all settings"), self.details
+        )
         self._make_fields()
         self._make_damping()
         self._lay_out()
@@ -134,16 +134,18 @@ class RulesChooser(QWidget):
     # --- construction ----------------------------------------------------------------------------------------------
 
     def _make_fields(self) -> None:
-        self.numbers = {field.name: self._number(field.name, field.title, field.tip) for field in _FIELDS}
-        self.captions = {field.name: _caption(field.title, self.numbers[field.name]) for field in _FIELDS}
+        self.numbers = {field.name: self._number(field.name, tr(field.title), tr(field.tip)) for field in _FIELDS}
+        self.captions = {field.name: _caption(tr(field.title), self.numbers[field.name]) for field in _FIELDS}
         for field in _FIELDS:
             self.numbers[field.name].number_changed.connect(lambda value, f=field: self._on_number(f, value))
         self.weights = [
-            self._number(f"weight_{w.replace(' ', '_')}", tr("Weight: {w}", w=w), _WEIGHTS_TIP) for w in _WEIGHTS
+            self._number(f"weight_{what}_{axis}", tr(title, axis=axis), tr(_WEIGHTS_TIP))
+            for what, title in _WEIGHTS.items()
+            for axis in "xyz"
         ]
         for weight in self.weights:
             weight.number_changed.connect(lambda _: self._edit(weights=tuple(edit.number for edit in self.weights)))
-        self.switches = {name: self._switch(name, title, tip) for name, title, tip in _SWITCHES}
+        self.switches = {name: self._switch(name, title, tr(tip)) for name, title, tip in _SWITCHES}
 
     def _number(self, name: str, title: str, tip: str) -> NumberEdit:
         edit = NumberEdit(f"lab_{name}", title, tip)
@@ -187,7 +189,7 @@ class RulesChooser(QWidget):
         row = grid.rowCount()
         for half, what in enumerate((tr("Weights, rotation x y z"), tr("then position x y z"))):
             caption = _caption(what, self.weights[3 * half])
-            caption.setToolTip(_WEIGHTS_TIP)
+            caption.setToolTip(tr(_WEIGHTS_TIP))
             grid.addWidget(caption, row, 3 * half, 1, 3)
         for column, weight in enumerate(self.weights):
             grid.addWidget(weight, row + 1, column)
@@ -204,12 +206,12 @@ class RulesChooser(QWidget):
     def _show(self) -> None:
         preset = self._preset()
         select(self.presets, preset.title if preset else _OWN)
-        self.presets.setToolTip(preset.citation if preset else tr("Settings of your own"))
+        self.presets.setToolTip(tr(preset.citation) if preset else tr("Settings of your own"))
         select(self.tasks, self.task)
         for field in _FIELDS:
             factor, suffix = self._unit(field)
             self.numbers[field.name].set_number(getattr(self.options, field.name) * factor)
-            self.captions[field.name].setText(field.title + (f", {suffix}" if suffix else ""))
+            self.captions[field.name].setText(tr(", ").join(filter(None, (tr(field.title), suffix))))
         for edit, weight in zip(self.weights, self.options.weights, strict=True):
             edit.set_number(weight)
         for name, switch in self.switches.items():

@@ -74,22 +74,22 @@ def iterates_items(iterates: Iterates, palette: ScenePalette) -> tuple[Item, ...
     points = forward_kinematics(robot, q)[:, :3, 3]
     items.append(
         Triads(
-            tr("{iterates_key}.target", iterates_key=ITERATES_KEY),
+            f"{ITERATES_KEY}.target",
             iterates.T[None],
             _TARGET_AXES * robot.size,
             letters=False,
         )
     )
-    items.append(Polyline(tr("{iterates_key}.way", iterates_key=ITERATES_KEY), points, color, 2.2))
-    items.append(Dots(tr("{iterates_key}.places", iterates_key=ITERATES_KEY), points, color, 6.0))
-    items.append(Labels(tr("{iterates_key}.names", iterates_key=ITERATES_KEY), _names(iterates, points, palette)))
+    items.append(Polyline(f"{ITERATES_KEY}.way", points, color, 2.2))
+    items.append(Dots(f"{ITERATES_KEY}.places", points, color, 6.0))
+    items.append(Labels(f"{ITERATES_KEY}.names", _names(iterates, points, palette)))
     return tuple(items)
 
 
 def _names(iterates: Iterates, points: FloatArray, palette: ScenePalette) -> tuple[Label, ...]:
-    short = SOLVER_LOOKS[iterates.solver].short
-    target = Label(iterates.T[:3, 3], "target", palette.text, (10.0, 18.0), 13.0)
-    ends = (Label(points[0], "start", palette.text), Label(points[-1], f"{short}, {len(points) - 1}", palette.text))
+    last = f"{tr(SOLVER_LOOKS[iterates.solver].short)}, {len(points) - 1}"
+    target = Label(iterates.T[:3, 3], tr("target"), palette.text, (10.0, 18.0), 13.0)
+    ends = (Label(points[0], tr("start"), palette.text), Label(points[-1], last, palette.text))
     return (*(end._replace(shift=(10.0, -10.0), size=13.0) for end in ends), target)
 
 
@@ -108,20 +108,20 @@ def comparison_items(comparison: Comparison, palette: ScenePalette) -> tuple[Ite
     look = SOURCE_002_LOOKS["printed"]
     wrong = _color(look.light, look.dark, palette)
     names = (
-        Label(targets[0], "ellipse", palette.text, (10.0, -8.0), 13.0),
+        Label(targets[0], tr("ellipse"), palette.text, (10.0, -8.0), 13.0),
         Label(reached[0], tr("as printed"), palette.text, (10.0, -8.0), 13.0),
     )
     return (
-        Polyline(tr("{source_002_key}.ellipse", source_002_key=SOURCE_002_KEY), targets, palette.desired, 2.4),
-        Dots(tr("{source_002_key}.printed", source_002_key=SOURCE_002_KEY), reached, wrong, 5.0),
+        Polyline(f"{SOURCE_002_KEY}.ellipse", targets, palette.desired, 2.4),
+        Dots(f"{SOURCE_002_KEY}.printed", reached, wrong, 5.0),
         Polyline(
-            tr("{source_002_key}.gap", source_002_key=SOURCE_002_KEY),
+            f"{SOURCE_002_KEY}.gap",
             np.stack([targets[0], reached[0]]),
             wrong,
             1.6,
             dashed=True,
         ),
-        Labels(tr("{source_002_key}.names", source_002_key=SOURCE_002_KEY), names),
+        Labels(f"{SOURCE_002_KEY}.names", names),
     )
 
 

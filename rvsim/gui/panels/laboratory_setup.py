@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
@@ -20,7 +22,7 @@ from rvsim.robot.arrays import FloatArray
 from rvsim.spatial import rotation_from_rpy, rpy_from_rotation
 
 _AXES = ("x", "y", "z")
-_ANGLES = ("roll", "pitch", "yaw")
+_ANGLES = (tr_later("roll"), tr_later("pitch"), tr_later("yaw"))
 _TARGETS = {
     "random": tr_later("Random, reachable"),
     "tool": tr_later("The tool's pose"),
@@ -33,9 +35,33 @@ _STARTS = {
     "own": tr_later("Own, by the sliders"),
 }
 _SOURCE_002 = "source_002"
-_AGAIN = {"random": tr_later("Another"), "tool": tr_later("Take again"), "present": tr_later("Take again")}
+_ANOTHER = tr_later("Another")
+_AGAIN = {"random": _ANOTHER, "tool": tr_later("Take again"), "present": tr_later("Take again")}
 _FIRST_TARGET, _FIRST_START = 6, 1  # numbers of random poses; that target is within reach of most starts
 _LABEL_WIDTH = 48
+
+
+class Words(NamedTuple):
+    """What a chooser says: before the choice, to screen readers, and of the button that shows the numbers; English."""
+
+    label: str
+    title: str
+    show: str
+    hide: str
+
+
+_TARGET = Words(
+    tr_later("Target"),
+    tr_later("Target of the laboratory"),
+    tr_later("Show the target's numbers"),
+    tr_later("Hide the target's numbers"),
+)
+_START = Words(
+    tr_later("Start"),
+    tr_later("Start of the laboratory"),
+    tr_later("Show the start's numbers"),
+    tr_later("Hide the start's numbers"),
+)
 
 
 def labelled_row(title: str, *widgets: QWidget) -> QWidget:
@@ -58,21 +84,19 @@ class Chooser(QWidget):
 
     changed = Signal()
 
-    def __init__(self, name: str, title: str, choices: dict[str, str], session: Session) -> None:
+    def __init__(self, name: str, words: Words, choices: dict[str, str], session: Session) -> None:
         super().__init__()
         self._session = session
         self.number = 0  # of the random pose
-        self.choice = combo(tr("lab_{name}_selector", name=name), tr("{title} of the laboratory", title=title), choices)
+        self.choice = combo(f"lab_{name}_selector", words.title, choices)
         self.choice.activated.connect(lambda _: self.take(self.choice.currentData()))
-        self.again: QPushButton = button(tr("lab_{name}_again_button", name=name), tr("Another"), "", self._on_again)
+        self.again: QPushButton = button(f"lab_{name}_again_button", _ANOTHER, "", self._on_again)
         self.details = QWidget()
-        self.disclosure = Disclosure(
-            tr("lab_{name}_details_button", name=name), tr("the {lower}'s numbers", lower=title.lower()), self.details
-        )
+        self.disclosure = Disclosure(f"lab_{name}_details_button", tr(words.show), tr(words.hide), self.details)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
-        column.addWidget(labelled_row(title, self.choice, self.again, self.disclosure))
+        column.addWidget(labelled_row(tr(words.label), self.choice, self.again, self.disclosure))
         column.addWidget(self.details)
 
     def take(self, choice: str) -> None:
@@ -84,7 +108,7 @@ class Chooser(QWidget):
         """Make a choice, silently."""
         select(self.choice, choice)
         self.again.setVisible(choice in _AGAIN)
-        self.again.setText(_AGAIN.get(choice, "Another"))
+        self.again.setText(tr(_AGAIN.get(choice, _ANOTHER)))
         self.again.setToolTip(tr("Draw another random pose") if choice == "random" else tr("Take it as it is now"))
 
     def _on_again(self) -> None:
@@ -96,7 +120,7 @@ class TargetChooser(Chooser):
     """The target: a random pose that can be reached, the tool's own, or a typed one; `T` (4, 4)."""
 
     def __init__(self, session: Session, preferences: Preferences) -> None:
-        super().__init__("target", tr("Target"), _TARGETS, session)
+        super().__init__("target", _TARGET, _TARGETS, session)
         self.T: FloatArray = np.eye(4)
         self.position = NumberRow("lab_target", _AXES, ("length",) * 3, preferences)
         self.angles = NumberRow("lab_target", _ANGLES, ("angle",) * 3, preferences)
@@ -106,7 +130,7 @@ class TargetChooser(Chooser):
         for row, names in ((self.position, _AXES), (self.angles, _ANGLES)):
             column.addWidget(row)
             for box, name in zip(row.boxes, names, strict=True):
-                box.setAccessibleName(tr("Target {name} of the laboratory", name=name))
+                box.setAccessibleName(tr("Target {coordinate} of the laboratory", coordinate=tr(name)))
                 box.quantity_changed.connect(lambda _, turned=name in _ANGLES: self._on_typed(turned))
                 box.refused.connect(session.warn)
         self.show_robot()
@@ -148,7 +172,7 @@ class StartChooser(Chooser):
     """The start: home, the present pose, a random one, or own values by sliders; `q0` (n,) [rad, m]."""
 
     def __init__(self, session: Session, preferences: Preferences) -> None:
-        super().__init__("start", tr("Start"), _STARTS, session)
+        super().__init__("start", _START, _STARTS, session)
         self._preferences = preferences
         self.q0: FloatArray = session.robot.home
         self.joints: list[StartJoint] = []

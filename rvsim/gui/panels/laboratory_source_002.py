@@ -56,10 +56,10 @@ class Source002Page(Page):
         self._column = QVBoxLayout(self._inside)
         self._column.setContentsMargins(12, 8, 12, 8)
         self._column.setSpacing(8)
-        for widget in (_text(_INTRODUCTION), self.sentence, self.legend):
+        for widget in (_text(tr(_INTRODUCTION)), self.sentence, self.legend):
             self._column.addWidget(widget)
         for text in (_IN_SCENE, SOURCE_002_READING):
-            label = _text(text)
+            label = _text(tr(text))
             set_role(label, role="muted")
             self._column.addWidget(label)
         self._column.addStretch(0)
@@ -73,7 +73,7 @@ class Source002Page(Page):
     def _make_plot(self) -> None:
         from rvsim.gui.panels.laboratory_plot import LogPlot
 
-        self.plot = LogPlot(SOURCE_002_LOOKS, (_POINTS, ""), self._preferences)
+        self.plot = LogPlot(SOURCE_002_LOOKS, (tr(_POINTS), ""), self._preferences)
         self.plot.setObjectName("lab_source_002_plot")
         self.plot.setMinimumHeight(180)
         self._column.insertWidget(3, self.plot, 1)
@@ -91,7 +91,7 @@ class Source002Page(Page):
         units = shown_units(self._preferences)
         factor = 1.0 if units.length == "mm" else 1e-3
         self.sentence.setText(source_002_sentence(self.comparison, units))
-        self.plot.set_titles(_POINTS, tr("off by, {length}", length=units.length))
+        self.plot.set_titles(tr(_POINTS), tr("off by, {unit}", unit=units.length))
         curves = {
             "printed": printed.deviations,
             "believed": printed.believed_deviations,

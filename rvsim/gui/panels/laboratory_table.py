@@ -16,7 +16,7 @@ from rvsim.lab.laboratory import Contest, Outcome, verdict
 from rvsim.language import tr, tr_later
 
 _TOP = QModelIndex()
-_HEADS = ("solver", "ok", "iter.", "ms", "", "", "verdict")
+_HEADS = (tr_later("solver"), tr_later("ok"), tr_later("iter."), "ms", "", "", tr_later("verdict"))
 _TIPS = (
     tr_later("The solver; point at a row to see its iterates in the scene"),
     tr_later("Whether every tolerance is kept"),
@@ -74,7 +74,7 @@ class ContestModel(QAbstractTableModel):
         result = outcome.result
         place, turn = self._units()
         return (
-            SOLVER_LOOKS[outcome.solver].short,
+            tr(SOLVER_LOOKS[outcome.solver].short),
             "✓" if result.converged else "✗",
             str(result.iterations),
             _milliseconds(result.elapsed),
@@ -96,11 +96,12 @@ class ContestModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return LEFT if section in (0, _VERDICT) else RIGHT
         if role == Qt.ItemDataRole.ToolTipRole:
-            return _TIPS[section]
+            return tr(_TIPS[section])
         if role != Qt.ItemDataRole.DisplayRole:
             return None
         place, turn = self._units()
-        return {4: tr("pos. {place}", place=place[1]), 5: tr("rot. {turn}", turn=turn[1])}.get(section, _HEADS[section])
+        heads = {4: tr("pos. {unit}", unit=place[1]), 5: tr("rot. {unit}", unit=turn[1])}
+        return heads.get(section, tr(_HEADS[section]))
 
 
 def _milliseconds(seconds: float) -> str:
@@ -124,6 +125,7 @@ class ContestTable(QTableView):
         self.setObjectName("lab_table")
         self.setAccessibleName(tr("Solvers"))
         self.setModel(model)
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers, in any language
         self.setShowGrid(False)
         self.setAlternatingRowColors(True)
         self.setWordWrap(False)
@@ -146,7 +148,8 @@ class ContestTable(QTableView):
         metrics = text_metrics()
         roomy = self.width() >= _ROOM_FOR_VERDICT
         self.setColumnHidden(_VERDICT, not roomy)
-        texts = (tr("Newton"), "✓", "1500", "88.8", "8.8e−88", "8.8e−88")
+        names = (tr(look.short) for look in SOLVER_LOOKS.values())
+        texts = (max(names, key=metrics.horizontalAdvance), "✓", "1500", "88.8", "8.8e−88", "8.8e−88")
         for column, text in enumerate(texts):
             head = str(self.model().headerData(column, Qt.Orientation.Horizontal))
             width = max(metrics.horizontalAdvance(text), metrics.horizontalAdvance(head))

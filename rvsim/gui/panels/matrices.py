@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
@@ -18,7 +19,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import ElidedLabel, column_of, scrolled
 from rvsim.kinematics import joint_transforms, link_transforms
 from rvsim.lab.texts import matrix_latex, matrix_numpy, matrix_text
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot import Convention, Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -73,12 +74,13 @@ class TransformSection(QWidget):
         super().__init__()
         self._session, self._preferences = session, preferences
         self._matrix: FloatArray = np.eye(4)
+        self._name = ""  # as copies have it
         self.title, self.formula, self.note = ElidedLabel(), QLabel(), QLabel()
         self.view = MatrixView(preferences, title)
         self.view.setObjectName(f"{name}_matrix")
         self.formula.setObjectName(f"{name}_formula")
         self.note.setObjectName(f"{name}_note")
-        makers = {"text": matrix_text, "NumPy": matrix_numpy, "LaTeX": matrix_latex}
+        makers = {tr_later("text"): matrix_text, "NumPy": matrix_numpy, "LaTeX": matrix_latex}
         formats = {
             label: (lambda make=make, label=label: self._copied(make(self._shown()), label))
             for label, make in makers.items()
@@ -103,11 +105,19 @@ class TransformSection(QWidget):
         column.addWidget(self.formula)
         column.addWidget(self.note)
 
-    def show_transform(self, title: str, matrix: FloatArray, formula: str, note: str) -> None:
-        """Show a transform (4, 4) [m] under its title, with its formula and a note."""
-        self._matrix = matrix
+    def show_transform(
+        self, title: str, matrix: FloatArray, formula: str = "", note: str = "", *, name: str = ""
+    ) -> None:
+        """Show a transform (4, 4) [m] under its title, with its formula and a note.
+
+        Args:
+            title, note: English.
+            name: of a joint, behind the title; English.
+        """
+        self._matrix, self._name = matrix, f"{title}  {name}".rstrip()
         self.view.show_matrix(matrix, length_kind(self._session.robot))
-        for label, text in ((self.title, title), (self.formula, formula), (self.note, note)):
+        shown = f"{tr(title)}  {tr(name)}".rstrip()
+        for label, text in ((self.title, shown), (self.formula, formula), (self.note, tr(note))):
             if label.text() != text:
                 label.setText(text)
                 label.setVisible(bool(text))
@@ -122,13 +132,7 @@ class TransformSection(QWidget):
         """With a line that says the unit, commented out as the format wants it."""
         unit = display(length_kind(self._session.robot), self._preferences).suffix.strip()
         mark = {"NumPy": "# ", "LaTeX": "% "}.get(label, "")
-        return tr(
-            "{mark}{plain_digits}, lengths in {unit}\n{text}",
-            mark=mark,
-            plain_digits=plain_digits(self.title.text()),
-            unit=unit,
-            text=text,
-        )
+        return f"{mark}{plain_digits(self._name)}, lengths in {unit}\n{text}"
 
 
 class MatricesPanel(ReadOutPanel):
@@ -142,10 +146,14 @@ class MatricesPanel(ReadOutPanel):
         self._steps.idClicked.connect(lambda _step: self.refresh())
         self._row = QHBoxLayout()
         self._row.setSpacing(2)
+        self._row_around = QWidget()
+        self._row_around.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as they stand in the product
+        self._row_around.setLayout(self._row)
+        self._row.setContentsMargins(0, 0, 0, 0)
         self.link = TransformSection("link", tr("link transform"), session, preferences)
         self.product = TransformSection("product", tr("running product"), session, preferences)
         self._lay_out()
-        for key, by in ((tr("Left"), -1), (tr("Right"), 1)):
+        for key, by in (("Left", -1), ("Right", 1)):
             shortcut = QShortcut(QKeySequence(key), self)
             shortcut.setContext(shortcut.context().WidgetWithChildrenShortcut)
             shortcut.activated.connect(lambda by=by: self.step(by))
@@ -155,7 +163,7 @@ class MatricesPanel(ReadOutPanel):
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
         column.setSpacing(16)
-        column.addLayout(self._row)
+        column.addWidget(self._row_around)
         column.addWidget(self.link)
         column.addWidget(self.product)
         column.addStretch(1)
@@ -186,26 +194,23 @@ class MatricesPanel(ReadOutPanel):
         if step == robot.dof + 1:
             self._show_tool(robot, products[-1])
         elif step == 0:
-            self.link.show_transform(tr("⁰T base, where the first frame stands"), robot.T_base_0, "", "")
-            self.product.show_transform(tr("Running product"), products[0], "", "")
+            self.link.show_transform(tr_later("⁰T base, where the first frame stands"), robot.T_base_0)
+            self.product.show_transform(tr_later("Running product"), products[0])
         else:
             self._show_joint(robot, step, joint_transforms(robot, q)[step - 1], products[step])
 
     def _show_joint(self, robot: Robot, joint: int, A: FloatArray, T: FloatArray) -> None:
         numbers = link_numbers(robot, joint, float(self._session.q[joint - 1]), self._preferences)
-        formula = f"{link_formula(robot.convention, joint)}\n{numbers}"
-        self.link.show_transform(
-            f"A{subscript(joint)}  {robot.joint_names[joint - 1]}", A, formula, CONVENTIONS[robot.convention]
-        )
+        formula = "\n".join(map(left_to_right, (link_formula(robot.convention, joint), numbers)))
+        name, note = robot.joint_names[joint - 1], CONVENTIONS[robot.convention]
+        self.link.show_transform(f"A{subscript(joint)}", A, formula, note, name=name)
         product = " · ".join(f"A{subscript(i)}" for i in range(1, joint + 1))
         based = "T base · " if self._steps.button(0) is not None else ""
-        self.product.show_transform(f"⁰T{subscript(joint)} = {based}{product}", T, "", "")
+        self.product.show_transform(f"⁰T{subscript(joint)} = {based}{product}", T)
 
     def _show_tool(self, robot: Robot, flange: FloatArray) -> None:
-        self.link.show_transform(tr("T tool, from the flange"), robot.T_flange_tool, robot.tool.title, "")
-        self.product.show_transform(
-            tr("⁰T tool = ⁰T{subscript} · T tool", subscript=subscript(robot.dof)), flange @ robot.T_flange_tool, "", ""
-        )
+        self.link.show_transform(tr_later("T tool, from the flange"), robot.T_flange_tool, tr(robot.tool.title))
+        self.product.show_transform(f"⁰T tool = ⁰T{subscript(robot.dof)} · T tool", flange @ robot.T_flange_tool)
 
     def _offer(self, robot: Robot) -> None:
         """One button a step; the same step stays chosen where the new arm has it."""
@@ -221,14 +226,14 @@ class MatricesPanel(ReadOutPanel):
         self._steps.button(min(max(kept, wanted[0]), wanted[-1])).setChecked(True)
 
     def _step_button(self, step: int, robot: Robot) -> QToolButton:
-        text = {0: "base", robot.dof + 1: "tool"}.get(step, f"A{subscript(step)}")
+        text = {0: tr("base"), robot.dof + 1: tr("tool")}.get(step, f"A{subscript(step)}")
         button = QToolButton()
         button.setText(text)
         button.setCheckable(True)
         button.setObjectName(f"matrix_step_{step}")
-        name = tr("joint {step}", step=step) if 0 < step <= robot.dof else text
-        button.setAccessibleName(tr("Transform of {name}", name=name))
-        button.setToolTip(tr("Show the transform of {name} (left and right arrows step)", name=name))
+        name = tr("joint {number}", number=step) if 0 < step <= robot.dof else text
+        button.setAccessibleName(tr("Transform of {frame}", frame=name))
+        button.setToolTip(tr("Show the transform of {frame} (left and right arrows step)", frame=name))
         self._steps.addButton(button, step)
         return button
 

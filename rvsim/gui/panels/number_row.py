@@ -19,7 +19,7 @@ _LARGEST = 1e9
 
 
 class NumberRow(QWidget):
-    """Boxes side by side under their names; all their numbers can be pasted into any of them.
+    """Boxes side by side under their names, which are English; all their numbers can be pasted into any of them.
 
     Signals:
         edited(index): one has another value; of several given at once the one that took them tells.
@@ -41,6 +41,7 @@ class NumberRow(QWidget):
         hint: str = "",
     ) -> None:
         super().__init__()
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as the numbers stand in formulas, in any language
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)

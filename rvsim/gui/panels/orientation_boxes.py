@@ -114,9 +114,7 @@ class OrientationBoxes(QWidget):
         length = float(np.linalg.norm(direction))
         if direction.size and abs(length - 1.0) > 5e-4:
             taken = ", ".join(format_number(number, 4) for number in (direction / length).tolist())
-            self.told.emit(
-                tr("Length {format_number}, taken as {taken}.", format_number=format_number(length, 4), taken=taken)
-            )
+            self.told.emit(tr("Length {length}, taken as {taken}.", length=format_number(length, 4), taken=taken))
 
     def _on_finished(self) -> None:
         self.finished.emit()

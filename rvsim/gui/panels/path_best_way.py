@@ -14,20 +14,39 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_quantity, joint_kind, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.widgets import button, combo, select
-from rvsim.kinematics import forward_kinematics
+from rvsim.kinematics import branch_title, forward_kinematics
 from rvsim.language import tr, tr_later
-from rvsim.motion.best_way import Criterion, Way, best_ways
+from rvsim.motion.best_way import Criterion, MoveLaw, Way, best_ways
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _CRITERIA = {"quickest": tr_later("Quickest"), "least motion": tr_later("Least motion")}
 _HOME, _TARGET = tr_later("Home"), tr_later("The tool's target")
 _HEADS = (
-    ("branch", tr_later("The branch of the inverse kinematics at the end")),
+    (tr_later("branch"), tr_later("The branch of the inverse kinematics at the end")),
     ("s", tr_later("Time of the quickest law, in seconds")),
-    ("motion", tr_later("Length of the way of all joints together; a slide across the arm counts as half a turn")),
-    ("clear", tr_later("The least distance from the table and from itself on the way; ✗ where they meet")),
+    (
+        tr_later("motion"),
+        tr_later("Length of the way of all joints together; a slide across the arm counts as half a turn"),
+    ),
+    (tr_later("clear"), tr_later("The least distance from the table and from itself on the way; ✗ where they meet")),
 )
+_LAWS: dict[MoveLaw, str] = {
+    "jerk-limited": tr_later("jerk-limited"),
+    "trapezoid": tr_later("trapezoid"),
+    "quintic": tr_later("quintic"),
+}
+# A branch's words in a narrow column, as far as they are other ones.
+_SHORT = {
+    "left shoulder": tr_later("left"),
+    "right shoulder": tr_later("right"),
+    "wrist flip": tr_later("flip"),
+    "wrist no-flip": tr_later("no-flip"),
+    "elbow up": tr_later("up"),
+    "elbow down": tr_later("down"),
+    "elbow left": tr_later("left"),
+    "elbow right": tr_later("right"),
+}
 
 
 class BestWaySection(QGroupBox):
@@ -43,7 +62,7 @@ class BestWaySection(QGroupBox):
         self.criterion = combo("best_way_criterion", tr("What is best"), _CRITERIA)
         self.criterion.activated.connect(lambda _: self.search())
         self.find_button = button("best_way_find", tr("Find"), tr("Try every branch and every time law"), self.search)
-        self.go_button = button("best_way_go", "Go", tr("Go the chosen way; one undo step leads back"), self.go)
+        self.go_button = button("best_way_go", tr("Go"), tr("Go the chosen way; one undo step leads back"), self.go)
         self.model = RowsModel(_HEADS)
         self.table = rows_table("best_way_table", tr("Ways"), self.model)
         self.table.selectionModel().currentRowChanged.connect(lambda *_: self._tell())
@@ -65,11 +84,11 @@ class BestWaySection(QGroupBox):
         """Another pose, arm or list of poses: what was found before starts somewhere else."""
         experiment = self._session.experiment
         names = (_HOME, *(pose.name for pose in experiment.poses), _TARGET)
-        if names != tuple(self.target.itemText(row) for row in range(self.target.count())):
+        if names != tuple(self.target.itemData(row) for row in range(self.target.count())):
             chosen = self.target.currentData()
             self.target.clear()
             for name in names:
-                self.target.addItem(name, name)
+                self.target.addItem(_said(name), name)
             select(self.target, chosen if chosen in names else _HOME)
         if self.ways and (experiment.robot is not self._robot or self._stale()):
             self.ways = ()
@@ -114,7 +133,7 @@ class BestWaySection(QGroupBox):
         self.refresh()  # the key that asks may come while the page lies behind others and has not looked since
         way = self._chosen()
         if way is not None and way.possible:
-            self._motion.load(way.moves[way.law], tr("Best way to {name}", name=self._name))
+            self._motion.load(way.moves[way.law], tr("Best way to {name}", name=_said(self._name)))
             self._motion.play()
 
     def _chosen(self) -> Way | None:
@@ -123,19 +142,21 @@ class BestWaySection(QGroupBox):
 
     def _show(self) -> None:
         robot = self._session.robot
-        self.model.show_rows([TextRow(self._texts(robot, way), way.label, way.possible) for way in self.ways])
+        self.model.show_rows(
+            [TextRow(self._texts(robot, way), branch_title(way.label), way.possible) for way in self.ways]
+        )
         self.table.setVisible(bool(self.ways))
         self._tell()
 
     def _texts(self, robot: Robot, way: Way) -> tuple[str, ...]:
-        seconds = f"{way.seconds:.2f}" if way.possible else "limits"
+        seconds = f"{way.seconds:.2f}" if way.possible else tr("limits")
         motion = format_quantity(way.motion, "angle", self._preferences)
         return _short(way.label), seconds, motion, self._clear(robot, way)
 
     def _clear(self, robot: Robot, way: Way) -> str:
         nearest = min(way.table, way.own)
         if nearest < 0.0:
-            return "✗ table" if way.table < 0.0 else "✗ itself"
+            return tr("✗ table") if way.table < 0.0 else tr("✗ itself")
         return "✓" if math.isinf(nearest) else f"✓ {format_quantity(nearest, length_kind(robot), self._preferences)}"
 
     def _tell(self) -> None:
@@ -144,22 +165,23 @@ class BestWaySection(QGroupBox):
         self.sentence.setText("" if way is None else self._way_words(way))
 
     def _way_words(self, way: Way) -> str:
-        laws = ", ".join(
-            f"{law} {move.duration:.2f} s" for law, move in sorted(way.moves.items(), key=lambda item: item[1].duration)
-        )
-        margin = ""
+        moves = sorted(way.moves.items(), key=lambda item: item[1].duration)
+        laws = tr(", ").join(tr("{law} {time:.2f} s", law=tr(_LAWS[law]), time=move.duration) for law, move in moves)
+        branch = branch_title(way.label)
+        sentences = [f"{branch[:1].upper()}{branch[1:]}: {laws}."]
         if way.margin_joint is not None:
             robot = self._session.robot
-            number = format_quantity(way.margin, joint_kind(robot, way.margin_joint), self._preferences)
-            margin = tr(
-                " At the end {joint_names} is {number} before its limit.",
-                joint_names=robot.joint_names[way.margin_joint],
-                number=number,
-            )
-        return f"{way.label[:1].upper()}{way.label[1:]}: {laws}.{margin}"
+            distance = format_quantity(way.margin, joint_kind(robot, way.margin_joint), self._preferences)
+            joint = tr(robot.joint_names[way.margin_joint])
+            sentences.append(tr("At the end {joint} is {distance} before its limit.", joint=joint, distance=distance))
+        return " ".join(sentences)
+
+
+def _said(name: str) -> str:
+    """A goal as the list says it: the names of poses are their owner's."""
+    return tr(name) if name in (_HOME, _TARGET) else name
 
 
 def _short(label: str) -> str:
     """The branch in a narrow column: "right, no-flip, up" for "right shoulder, wrist no-flip, elbow up"."""
-    words = (word for word in label.replace(",", " ,").split() if word not in ("shoulder", "elbow", "wrist"))
-    return " ".join(words).replace(" ,", ",")
+    return tr(", ").join(tr(_SHORT.get(word, word)) for word in label.split(", "))

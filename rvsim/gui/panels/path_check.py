@@ -97,7 +97,7 @@ class CheckPage(PathPage):
         report = self.report
         theme, units = THEMES[self._preferences["theme"]], shown_units(self._preferences)
         told = "" if report is None else f"{SYMBOLS[report.severity]} {summary_sentence(report)}"
-        self.summary.setText(told or _EMPTY)
+        self.summary.setText(told or tr(_EMPTY))
         set_role(self.summary, role="title" if told else "muted")
         self.findings.show_report(report, units, theme)
         self.repair_box.setVisible(self._search.needed)

@@ -13,7 +13,11 @@ from rvsim.lab.sentences import Units
 from rvsim.language import tr, tr_later
 from rvsim.motion.honesty import Finding, Report, Severity
 
-_SAID: dict[Severity, str] = {"good": "good", "warning": tr_later("mind this"), "bad": "wrong"}
+_SAID: dict[Severity, str] = {
+    "good": tr_later("good"),
+    "warning": tr_later("mind this"),
+    "bad": tr_later("wrong"),
+}
 
 
 def severity_color(severity: Severity, theme: Theme) -> str:
@@ -46,7 +50,7 @@ class FindingRow(QFrame):
         self._goes = finding.time is not None and finding.kind != "reach"
         self.symbol.setText(SYMBOLS[finding.severity])
         self.symbol.setStyleSheet(f"color: {severity_color(finding.severity, theme)}; font-weight: 600;")
-        self.word.setText(f"{WORDS[finding.kind]}: {_SAID[finding.severity]}")
+        self.word.setText(f"{tr(WORDS[finding.kind])}: {tr(_SAID[finding.severity])}")
         text = finding_sentence(report, finding, units)
         self.sentence.setText(text)
         self.setAccessibleName(f"{self.word.text()}. {text}")

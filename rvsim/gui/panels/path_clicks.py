@@ -48,8 +48,8 @@ class ClickRows(QWidget):
         self.button.setCheckable(True)
         self.choice = combo("points_plane", tr("The plane that clicks put points on"), {})
         for index, (axis, (title, tip)) in enumerate(_PLANES.items()):
-            self.choice.addItem(title, axis)
-            self.choice.setItemData(index, tip, Qt.ItemDataRole.ToolTipRole)
+            self.choice.addItem(tr(title), axis)
+            self.choice.setItemData(index, tr(tip), Qt.ItemDataRole.ToolTipRole)
         self.choice.activated.connect(lambda _: self._on_axis(self.choice.currentData()))
         self.offset = QuantityBox(length_kind(robot), preferences, tr("Where the working plane lies"))
         self.offset.setObjectName("points_offset")

@@ -24,7 +24,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import button, column_of, scrolled
 from rvsim.lab.repairs import path_of
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.motion import Path
 from rvsim.motion.compare import Entry, comparison
 from rvsim.robot import Robot
@@ -34,6 +34,7 @@ _INTRO = tr_later(
     "started at every point in its last solution. Source 000 sets out to compare these."
 )
 _SHORT = {"closed form": tr_later("Closed"), "newton": tr_later("Newton"), "dls": "DLS", "lm": "LM", "bfgs": "BFGS"}
+_AS_SOURCE = tr_later("As 000")
 _COPY_HEADS = (
     "method", "total_s", "per_point_s", "rms_m", "largest_m", "largest_rotation_rad", "success", "jumps", "iterations",
 )  # fmt: skip
@@ -87,9 +88,9 @@ class ComparePage(PathPage):
         self.progress.setTextVisible(False)
         self.progress.setFixedHeight(8)
         self.intro, self.verdict = wrapped_label("muted"), wrapped_label()
-        self.intro.setText(_INTRO)
+        self.intro.setText(tr(_INTRO))
         self.verdict.setObjectName("compare_verdict")
-        formats = {"text": partial(self._copied, as_text), "CSV": partial(self._copied, as_csv)}
+        formats = {tr_later("text"): partial(self._copied, as_text), "CSV": partial(self._copied, as_csv)}
         self.copy = CopyButton("compare_copy", tr("the comparison"), formats, self._session)
 
     def _lay_out(self) -> None:
@@ -187,37 +188,37 @@ class ComparePage(PathPage):
     def _heads(self, robot: Robot) -> tuple[tuple[str, str], ...]:
         unit = display(length_kind(robot), self._preferences).suffix.strip()
         return (
-            ("method", tr("The closed form, or the numeric solver")),
+            (tr("method"), tr("The closed form, or the numeric solver")),
             ("ms", tr("Time for all points, in milliseconds")),
             ("µs", tr("Time for a point, in microseconds")),
             (tr("max {unit}", unit=unit), tr("The largest position error over the points found")),
-            ("found", tr("For how many of the points joints were found")),
-            ("jumps", tr("How often the arm leaves the path to change its branch")),
+            (tr("found"), tr("For how many of the points joints were found")),
+            (tr("jumps"), tr("How often the arm leaves the path to change its branch")),
         )
 
     def _verdict(self) -> str:
         """Who is how much quicker, and of which path and arm the table is."""
         assert self._of is not None
         robot, path = self._of
-        what = tr(
-            "{title}, {value}, {samples} points.",
-            title=robot.title,
-            value=path.title or path.name,
-            samples=path.samples,
+        what = trn(
+            "{robot}, {path}, {n} point.",
+            "{robot}, {path}, {n} points.",
+            path.samples,
+            robot=robot.title,
+            path=tr(path.title or path.name),
         )
         closed = [entry for entry in self.entries if entry.contestant.solver is None]
         others = [entry for entry in self.entries if entry.contestant.solver is not None]
         if not closed or not others or closed[0].seconds <= 0.0:
-            return tr("{what} This arm has no closed form.", what=what)
+            return f"{what} {tr('This arm has no closed form.')}"
         nearest = min(others, key=lambda entry: entry.seconds)
         times = nearest.seconds / closed[0].seconds
-        name = nearest.contestant.title
-        return tr(
-            "{what} The closed form is {times:.3g} times as quick as the quickest of the others ({name}).",
-            what=what,
+        verdict = tr(
+            "The closed form is {times:.3g} times as quick as the quickest of the others ({name}).",
             times=times,
-            name=name,
+            name=tr(nearest.contestant.title),
         )
+        return f"{what} {verdict}"
 
     def _copied(self, form: object) -> str:
         assert callable(form)
@@ -227,7 +228,7 @@ class ComparePage(PathPage):
 def _texts(entry: Entry, factor: float) -> tuple[str, ...]:
     milliseconds = 1e3 * entry.seconds
     return (
-        _SHORT.get(entry.contestant.name, "As 000"),
+        tr(_SHORT.get(entry.contestant.name, _AS_SOURCE)),
         f"{milliseconds:.1f}" if milliseconds < 100.0 else f"{milliseconds:.0f}",
         f"{1e6 * entry.seconds_per_point:.0f}",
         "–" if math.isnan(entry.largest) else format_scientific(entry.largest * factor),
@@ -237,19 +238,21 @@ def _texts(entry: Entry, factor: float) -> tuple[str, ...]:
 
 
 def _tip(entry: Entry) -> str:
-    tried = "" if entry.iterations is None else tr(", {iterations} iterations in all", iterations=entry.iterations)
-    turned = (
-        ""
-        if math.isnan(entry.largest_rotation)
-        else tr("; orientation within {largest_rotation:.1e} rad", largest_rotation=entry.largest_rotation)
-    )
+    method = tr(entry.contestant.title)
+    if entry.iterations is not None:
+        method = trn(
+            "{method}, {n} iteration in all", "{method}, {n} iterations in all", entry.iterations, method=method
+        )
+    if math.isnan(entry.largest_rotation):
+        return tr(
+            "{method}: RMS {rms:.1e} m, at most {largest:.1e} m.", method=method, rms=entry.rms, largest=entry.largest
+        )
     return tr(
-        "{title}{tried}: RMS {rms:.1e} m, at most {largest:.1e} m{turned}.",
-        title=entry.contestant.title,
-        tried=tried,
+        "{method}: RMS {rms:.1e} m, at most {largest:.1e} m; orientation within {angle:.1e} rad.",
+        method=method,
         rms=entry.rms,
         largest=entry.largest,
-        turned=turned,
+        angle=entry.largest_rotation,
     )
 
 

@@ -18,7 +18,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_scientific, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.widgets import button, combo
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.motion import Tracking, Trajectory
 from rvsim.motion.between import OffPath, off_at_points, off_between, ways_off_path
 from rvsim.motion.honesty import time_of_index
@@ -36,7 +36,13 @@ _TIMES = {
     "1000": tr_later("Drawn 1000 ×"),
     "10000": tr_later("Drawn 10,000 ×"),
 }
-_ROWS = ("x", "y", "z", "all")
+_DRAWN = {
+    "10": tr_later("deviation 10 ×"),
+    "100": tr_later("deviation 100 ×"),
+    "1000": tr_later("deviation 1000 ×"),
+    "10000": tr_later("deviation 10,000 ×"),
+}
+_ROWS = ("x", "y", "z", tr_later("all"))
 _COPY_HEADS = ("axis", "rms_m", "mean_m", "largest_m")
 
 
@@ -64,7 +70,7 @@ class DeviationSection(QGroupBox):
         tip = tr("Show the moment at which the tool is the farthest off")
         self.worst = button("deviation_worst", tr("Go to the largest"), tip, self.go_to_worst)
         self.curves = button("deviation_curves", tr("Curves"), tr("Plot the deviation over time"), self._show_curves)
-        formats = {"text": partial(self._copied, as_text), "CSV": partial(self._copied, as_csv)}
+        formats = {tr_later("text"): partial(self._copied, as_text), "CSV": partial(self._copied, as_csv)}
         self.copy = CopyButton("deviation_copy", tr("the deviation"), formats, session)
         for box in (self.where, self.times):
             box.activated.connect(lambda _: self.chosen.emit())
@@ -126,13 +132,8 @@ class DeviationSection(QGroupBox):
         entries = []
         if ways_off_path(trajectory, tracking):
             entries.append(Entry(palette.actual, tr("off the path on purpose"), dashed=True))
-        if self.times.currentData() != "1":
-            entries.append(
-                Entry(
-                    palette.limit,
-                    tr("deviation {removeprefix}", removeprefix=self.times.currentText().removeprefix("Drawn ")),
-                )
-            )
+        if self.times.currentData() in _DRAWN:
+            entries.append(Entry(palette.limit, tr(_DRAWN[self.times.currentData()])))
         return tuple(entries)
 
     def go_to_worst(self) -> None:
@@ -158,7 +159,10 @@ class DeviationSection(QGroupBox):
 
     def _show(self) -> None:
         factor = display(length_kind(self._session.robot), self._preferences).factor
-        rows = [TextRow((row[0], *(format_scientific(factor * value) for value in row[1]))) for row in self._numbers()]
+        rows = [
+            TextRow((tr(name), *(format_scientific(factor * value) for value in numbers)))
+            for name, numbers in self._numbers()
+        ]
         self.model.show_rows(rows, self._heads())
         self.table.setVisible(bool(rows))
         self.told.setText(self._sentence())
@@ -174,32 +178,31 @@ class DeviationSection(QGroupBox):
 
     def _sentence(self) -> str:
         if self._measured is None:
-            return _EMPTY
+            return tr(_EMPTY)
         tracking, _, off = self._measured
         if off.worst is None:
-            return _NO_WAY
+            return tr(_NO_WAY)
         before = math.floor(off.worst) + 1
-        place = (
-            tr("at point {before}", before=before)
+        largest = (
+            tr("Largest at point {number}.", number=before)
             if off.worst % 1.0 == 0.0
-            else tr("between points {before} and {before2}", before=before, before2=before + 1)
+            else tr("Largest between points {number} and {next}.", number=before, next=before + 1)
         )
-        missed = (
-            ""
-            if tracking.complete
-            else tr(" {samples} points are missed.", samples=tracking.samples - tracking.reached_count)
-        )
-        return tr("Largest {place}.{missed}", place=place, missed=missed)
+        if tracking.complete:
+            return largest
+        missed = trn("{n} point is missed.", "{n} points are missed.", tracking.samples - tracking.reached_count)
+        return f"{largest} {missed}"
 
     def _solved(self) -> str:
         if self._measured is None:
             return ""
         tracking = self._measured[0]
         total, each = 1e3 * tracking.solve_seconds, 1e6 * tracking.seconds_per_point
-        return tr(
-            "Inverse kinematics: {total:.2f} ms for {samples} points, {each:.1f} µs a point.",
+        return trn(
+            "Inverse kinematics: {total:.2f} ms for {n} point, {each:.1f} µs a point.",
+            "Inverse kinematics: {total:.2f} ms for {n} points, {each:.1f} µs a point.",
+            tracking.samples,
             total=total,
-            samples=tracking.samples,
             each=each,
         )
 

@@ -28,6 +28,11 @@ LINE_ORIENTATIONS = {
     "keep": tr_later("Tool as it is now"),
 }
 _AXES = ("x", "y", "z")
+_ENDS = {  # its label, the names of its boxes, and what an edit of it is called
+    "start": (tr_later("Start"), tr_later("Line start {axis}"), tr_later("Edit line start")),
+    "end": (tr_later("End"), tr_later("Line end {axis}"), tr_later("Edit line end")),
+}
+_EDIT_STEP = tr_later("Edit line step")
 
 
 class LineSection(QGroupBox):
@@ -39,12 +44,12 @@ class LineSection(QGroupBox):
         self._known_presets: dict[str, tuple[LinePreset, ...]] = {}
         self.presets = combo("line_preset", tr("Line presets"))
         self.presets.activated.connect(self._on_preset)
-        self.boxes = {end: [self._box(end, axis, preferences) for axis in _AXES] for end in ("start", "end")}
+        self.boxes = {end: [self._box(end, axis, preferences) for axis in _AXES] for end in _ENDS}
         self.resolution = QuantityBox("number", preferences, tr("Step as a fraction of the line"))
         self.resolution.setObjectName("line_resolution")
         self.resolution.set_range(0.001, 1.0, tr("1 gives the two ends alone, 0.001 a thousand pieces."))
         self.resolution.quantity_changed.connect(
-            lambda value: self._edit(tr("line step"), tr("line step"), resolution=value)
+            lambda value: self._edit(tr(_EDIT_STEP), "line step", resolution=value)
         )
         self.resolution.refused.connect(session.warn)
         self.resolution.editingFinished.connect(session.end_stroke)
@@ -53,8 +58,8 @@ class LineSection(QGroupBox):
         self.samples.setAccessibleName(tr("Number of points on the line"))
         self.samples.setRange(2, 1001)
         self.samples.setKeyboardTracking(False)
-        self.samples.setSuffix(" points")
-        self.samples.valueChanged.connect(lambda count: self._edit(tr("line step"), resolution=1.0 / (count - 1)))
+        self.samples.setSuffix(tr(" points"))
+        self.samples.valueChanged.connect(lambda count: self._edit(tr(_EDIT_STEP), resolution=1.0 / (count - 1)))
         self.orientation = combo("line_orientation", tr("Tool orientation along the line"), LINE_ORIENTATIONS)
         self.orientation.activated.connect(lambda _: self._on_orientation(self.orientation.currentData()))
         tip = tr("Solve the line and move the tool along it (Ctrl+L)")
@@ -62,7 +67,7 @@ class LineSection(QGroupBox):
         self._lay_out()
 
     def _box(self, end: str, axis: str, preferences: Preferences) -> QuantityBox:
-        box = QuantityBox("length", preferences, tr("Line {end} {axis}", end=end, axis=axis))
+        box = QuantityBox("length", preferences, tr(_ENDS[end][1], axis=axis))
         box.setObjectName(f"line_{end}_{axis}")
         box.setMinimumWidth(84)
         box.quantity_changed.connect(lambda _: self._on_point(end))
@@ -77,8 +82,8 @@ class LineSection(QGroupBox):
             label = QLabel(axis)
             set_role(label, role="muted")
             grid.addWidget(label, 0, column + 1, Qt.AlignmentFlag.AlignHCenter)
-        for row, end in enumerate(("start", "end"), 1):
-            grid.addWidget(QLabel(end.capitalize()), row, 0)
+        for row, (end, (title, *_)) in enumerate(_ENDS.items(), 1):
+            grid.addWidget(QLabel(tr(title)), row, 0)
             for column, box in enumerate(self.boxes[end]):
                 grid.addWidget(box, row, column + 1)
         step = QHBoxLayout()
@@ -112,7 +117,7 @@ class LineSection(QGroupBox):
             self.presets.clear()
             self.presets.addItem(tr("Your own"), None)
             for preset in presets:
-                self.presets.addItem(preset.title, preset)
+                self.presets.addItem(tr(preset.title), preset)
             same = [i for i, preset in enumerate(presets, 1) if _same_line(preset, experiment.line)]
             self.presets.setCurrentIndex(same[0] if same else 0)
 
@@ -127,21 +132,19 @@ class LineSection(QGroupBox):
         preset = self.presets.itemData(index)
         if preset is not None:
             line = replace(self._session.experiment, line=preset.task())
-            self._session.edit(tr("Line: {title}", title=preset.title), line)
+            self._session.edit(tr("Line: {title}", title=tr(preset.title)), line)
 
     def _on_point(self, end: str) -> None:
-        self._edit(
-            tr("line {end}", end=end), tr("line {end}", end=end), **{end: [box.quantity for box in self.boxes[end]]}
-        )
+        self._edit(tr(_ENDS[end][2]), f"line {end}", **{end: [box.quantity for box in self.boxes[end]]})
 
     def _on_orientation(self, orientation: PathOrientation) -> None:
         if orientation != self._session.experiment.line.orientation:
-            self._edit(tr("line orientation"), orientation=orientation)
+            self._edit(tr("Edit line orientation"), orientation=orientation)
 
-    def _edit(self, what: str, merge: str = "", **changes: Any) -> None:
+    def _edit(self, text: str, merge: str = "", **changes: Any) -> None:
         experiment = self._session.experiment
         line = replace(experiment.line, **changes)
-        self._session.edit(tr("Edit {what}", what=what), replace(experiment, line=line), merge=merge)
+        self._session.edit(text, replace(experiment, line=line), merge=merge)
 
 
 def _same_line(preset: LinePreset, line: LineTask) -> bool:

@@ -49,7 +49,7 @@ class OrientationRows(QWidget):
         self.choice.activated.connect(lambda _: self._on_choice(self.choice.currentData()))
         self.pitch = QuantityBox("angle", preferences, tr("ψ of the tool above the horizontal; −90° is straight down"))
         self.pitch.setObjectName("trajectory_pitch")
-        self.pitch.quantity_changed.connect(lambda value: self._edit(tr("trajectory pitch"), pitch=value))
+        self.pitch.quantity_changed.connect(lambda value: self._edit("trajectory pitch", pitch=value))
         self.from_now = QCheckBox(tr("from how the tool is now"))
         self.from_now.setObjectName("trajectory_from_now")
         self.from_now.toggled.connect(self._on_from_now)
@@ -78,7 +78,7 @@ class OrientationRows(QWidget):
         turns.setSpacing(2)
         turns.addWidget(self.from_now)
         turns.addWidget(self.ends["turn_from"])
-        turns.addWidget(QLabel("to"))
+        turns.addWidget(QLabel(tr("to")))
         turns.addWidget(self.ends["turn_to"])
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -118,7 +118,7 @@ class OrientationRows(QWidget):
 
     def _on_end(self, name: str) -> None:
         roll, pitch, yaw = self.ends[name].values.tolist()
-        self._edit(tr("trajectory {name}", name=name), **{name: (roll, pitch, yaw)})
+        self._edit(f"trajectory {name}", **{name: (roll, pitch, yaw)})
 
     def _edit(self, merge: str, **changes: Any) -> None:
         self.edited.emit(replace(self._task, **changes), merge)

@@ -40,7 +40,7 @@ class PaceSection(QGroupBox):
         self.seconds = QuantityBox("time", preferences, tr("Time for the whole path, longer where a joint needs it"))
         self.seconds.setObjectName("path_seconds")
         self.seconds.set_range(0.01, 3600.0, tr("A path takes 0.01 s to an hour."))
-        self.seconds.quantity_changed.connect(lambda value: self._edit(tr("path time"), path_seconds=value))
+        self.seconds.quantity_changed.connect(lambda value: self._edit("path time", path_seconds=value))
         self.seconds.refused.connect(session.warn)
         self.seconds.editingFinished.connect(session.end_stroke)
         self.ease = QCheckBox(tr("Slow down only where a joint needs it"))
@@ -80,4 +80,4 @@ class PaceSection(QGroupBox):
 
     def _edit(self, merge: str, **changes: Any) -> None:
         text = next(_EDITS[name] for name in changes)
-        self._session.edit(text, replace(self._session.experiment, **changes), merge=merge)
+        self._session.edit(tr(text), replace(self._session.experiment, **changes), merge=merge)

@@ -54,7 +54,7 @@ class PlaceRows(QWidget):
         )
         self.drag.setCheckable(True)
         self.drag.setEnabled(drag is not None)
-        self._size_label = QLabel("size ×")
+        self._size_label = QLabel(tr("size ×"))
         set_role(self._size_label, role="muted")
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
@@ -64,7 +64,7 @@ class PlaceRows(QWidget):
             size.addWidget(widget)
         self._column.addLayout(size)
         self._column.addWidget(self.drag)
-        self.scale.quantity_changed.connect(lambda value: self._edit(tr("path scale"), scale=value))
+        self.scale.quantity_changed.connect(lambda value: self._edit("path scale", scale=value))
         self.scale.refused.connect(session.warn)
         self.scale.editingFinished.connect(session.end_stroke)
         if drag is not None:
@@ -101,7 +101,7 @@ class PlaceRows(QWidget):
         self.center = NumberRow("path_center", ("x", "y", "z"), (kind,) * 3, self._preferences, tr("Path middle"))
         self.center.setProperty("kind", kind)
         center = self.center
-        center.edited.connect(lambda _: self._edit(tr("path center"), center=center.values))
+        center.edited.connect(lambda _: self._edit("path center", center=center.values))
         self.center.refused.connect(self._session.warn)
         self.center.finished.connect(self._session.end_stroke)
         self._column.insertWidget(0, self.center)

@@ -39,6 +39,11 @@ _TOOL_KEEPS = tr_later(
 )
 _FEWEST_TO_TURN = 4  # joints
 _SAME = 1e-6
+_CORNERS = (  # what a point is called, and what its button does
+    (tr_later("First point"), tr_later("The first point is where the tool is now: drive the arm there")),
+    (tr_later("Second point"), tr_later("The second point is where the tool is now: drive the arm there")),
+    (tr_later("Third point"), tr_later("The third point is where the tool is now: drive the arm there")),
+)
 _NO_NORMAL = tr_later("A normal needs a length: one of its three numbers must not be 0.")
 
 
@@ -53,18 +58,15 @@ class _Corner(QWidget):
 
     def __init__(self, number: int, kind: Kind, preferences: Preferences) -> None:
         super().__init__()
-        title = (tr("First"), tr("Second"), tr("Third"))[number]
-        self.row = NumberRow(
-            f"plane_point_{number + 1}", ("x", "y", "z"), (kind,) * 3, preferences, tr("{title} point", title=title)
-        )
-        tip = tr("The {lower} point is where the tool is now: drive the arm there", lower=title.lower())
+        title, tip = map(tr, _CORNERS[number])
+        self.row = NumberRow(f"plane_point_{number + 1}", ("x", "y", "z"), (kind,) * 3, preferences, title)
         self.take = button(f"plane_take_{number + 1}", tr("Tool"), tip, self.taken.emit)
         self.take.setProperty("compact", True)
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(6)
         label = QLabel(f"{number + 1}")
-        label.setToolTip(tr("{title} point", title=title))
+        label.setToolTip(title)
         set_role(label, role="muted")
         grid.addWidget(label, 1, 0)
         grid.addWidget(self.row, 0, 1, 2, 1)
@@ -93,7 +95,7 @@ class PlaneRows(QWidget):
         self._corners: list[_Corner] = []
         self.choice = combo("path_plane", tr("The plane that the shape lies in"), _CHOICES)
         for index, plane in enumerate(PLANES.values()):
-            self.choice.setItemData(index, plane.tip, Qt.ItemDataRole.ToolTipRole)
+            self.choice.setItemData(index, tr(plane.tip), Qt.ItemDataRole.ToolTipRole)
         self.choice.activated.connect(lambda _: self._on_choice(self.choice.currentData()))
         self.turn = NumberRow("path_turn", ("roll", "pitch", "yaw"), ("angle",) * 3, preferences, tr("Path turned by"))
         self.normal = NumberRow("path_normal", ("x", "y", "z"), ("number",) * 3, preferences, tr("Normal of the plane"))
@@ -192,21 +194,22 @@ class PlaneRows(QWidget):
         if name not in PLANES:
             self._show(self._where, True)
             return
-        self._lay(laid(self._where, name, level_yaw(self._task.name, self._where.center)), "", PLANES[name].title)
+        title = tr(PLANES[name].title)
+        self._lay(laid(self._where, name, level_yaw(self._task.name, self._where.center)), "", title)
         if name != "level" and self._task.orientation == "source" and self._session.robot.dof >= _FEWEST_TO_TURN:
-            self._session.say(f"{PLANES[name].title}. {_TOOL_KEEPS}")
+            self._session.say(f"{title}. {tr(_TOOL_KEEPS)}")
 
     def _on_turn(self) -> None:
         if self._where is not None:
-            self._lay(replace(self._where, rpy=self.turn.values), tr("path turn"))
+            self._lay(replace(self._where, rpy=self.turn.values), "path turn")
 
     def _on_normal(self) -> None:
         if self._where is None:
             return
-        self._lay_or_say(with_normal(self._where, self.normal.values), tr("path normal"), _NO_NORMAL)
+        self._lay_or_say(with_normal(self._where, self.normal.values), "path normal", tr(_NO_NORMAL))
 
     def _on_corner(self, number: int, _box: int) -> None:
-        self._put_point(number, self._corners[number].row.values, tr("plane point {number}", number=number))
+        self._put_point(number, self._corners[number].row.values, f"plane point {number}")
 
     def _take(self, number: int) -> None:
         """A point is where the tool is."""
@@ -218,7 +221,7 @@ class PlaneRows(QWidget):
         self._points = self._points.copy()
         self._points[number] = point
         self._corners[number].row.show_values(point)
-        self._lay_or_say(through_three(self._where, self._points), merge, _ON_A_LINE)
+        self._lay_or_say(through_three(self._where, self._points), merge, tr(_ON_A_LINE))
 
     def _lay_or_say(self, where: Placement | None, merge: str, why_not: str) -> None:
         if where is None:
@@ -226,9 +229,10 @@ class PlaneRows(QWidget):
         else:
             self._lay(where, merge)
 
-    def _lay(self, where: Placement, merge: str, text: str = tr_later("Turn the plane")) -> None:
+    def _lay(self, where: Placement, merge: str, text: str = "") -> None:
         assert self._task is not None
-        self.edited.emit(placed_task(self._session.robot, self._task, where), merge, text)
+        task = placed_task(self._session.robot, self._task, where)
+        self.edited.emit(task, merge, text or tr("Turn the plane"))
 
 
 def _same_plane(a: Placement, b: Placement) -> bool:

@@ -16,11 +16,12 @@ from rvsim.gui.quantities import Display, display, format_number, joint_kind, le
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.lab.tables import tracking_csv
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.motion import Tracking, Unreached
 
 _ROOT = QModelIndex()
 _WHY = {"reach": tr_later("out of reach"), "orientation": tr_later("not with this orientation")}
+_OUTSIDE = tr_later("outside the limits")
 _MISSED = QColor("#D9534F")
 
 
@@ -74,18 +75,13 @@ class PathPointsModel(QAbstractTableModel):
     def _came_of(self, tracking: Tracking, row: int) -> str:
         missed = self._missed.get(row)
         if missed is None:
-            return tr("after a jump") if row in tracking.jumps else "reached"
+            return tr("after a jump") if row in tracking.jumps else tr("reached")
         if missed.kind != "limits" or missed.joint is None or missed.value is None or missed.limit is None:
-            return _WHY.get(missed.kind, "outside the limits")
+            return tr(_WHY.get(missed.kind, _OUTSIDE))
         shown = self._joint(tracking, tracking.robot.joint_names.index(missed.joint))
-        needs, limit = (format_number(x * shown.factor, shown.decimals) for x in (missed.value, missed.limit))
-        return tr(
-            "{joint}: {needs}{suffix} needed, limit {limit}{suffix}",
-            joint=missed.joint,
-            needs=needs,
-            suffix=shown.suffix,
-            limit=limit,
-        )
+        numbers = (missed.value, missed.limit)
+        needed, limit = (format_number(x * shown.factor, shown.decimals) + shown.suffix for x in numbers)
+        return tr("{joint}: {needed} needed, limit {limit}", joint=tr(missed.joint), needed=needed, limit=limit)
 
     def _length(self, tracking: Tracking) -> Display:
         return display(length_kind(tracking.robot), self._preferences)
@@ -99,10 +95,10 @@ class PathPointsModel(QAbstractTableModel):
         if tracking is None or role != Qt.ItemDataRole.DisplayRole or orientation != Qt.Orientation.Horizontal:
             return None
         if section in (0, 4):
-            return "no." if section == 0 else tr("what came of it")
+            return tr("no.") if section == 0 else tr("what came of it")
         if section < 4:
             return f"{'xyz'[section - 1]} {self._length(tracking).suffix.strip()}"
-        return f"{tracking.robot.joint_names[section - 5]} {self._joint(tracking, section - 5).suffix.strip()}"
+        return f"{tr(tracking.robot.joint_names[section - 5])} {self._joint(tracking, section - 5).suffix.strip()}"
 
 
 class PathPointsDialog(QDialog):
@@ -145,10 +141,11 @@ class PathPointsDialog(QDialog):
         self.note.setText(
             tr("Nothing is tracked at present.")
             if tracking is None
-            else tr(
-                "{samples} points, {reached_count} reached. A click moves the arm there.",
-                samples=tracking.samples,
-                reached_count=tracking.reached_count,
+            else trn(
+                "{n} point, {reached} reached. A click moves the arm there.",
+                "{n} points, {reached} reached. A click moves the arm there.",
+                tracking.samples,
+                reached=tracking.reached_count,
             )
         )
 
@@ -158,10 +155,14 @@ class PathPointsDialog(QDialog):
             return
         if not tracking.reached[row]:
             self._session.warn(
-                tr("Point {row} was not reached: {data}.", row=row + 1, data=self.model.data(self.model.index(row, 4)))
+                tr(
+                    "Point {number} was not reached: {why}.",
+                    number=row + 1,
+                    why=self.model.data(self.model.index(row, 4)),
+                )
             )
         elif not np.array_equal(tracking.q[row], self._session.q):
-            self._session.move_to(tracking.q[row], tr("Go to point {row}", row=row + 1), merge="go to a point")
+            self._session.move_to(tracking.q[row], tr("Go to point {number}", number=row + 1), merge="go to a point")
 
     def _as_csv(self) -> str:
         return "" if self.model.tracking is None else tracking_csv(self.model.tracking)

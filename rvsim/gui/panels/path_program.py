@@ -31,7 +31,7 @@ from rvsim.gui.widgets import button, scrolled
 from rvsim.gui.workers import LatestWorker
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.program_words import move_words, plan_sentence, problem_sentence
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.motion.program import Plan, plan_program
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.paths import path_items
@@ -39,6 +39,13 @@ from rvsim.scene.paths import path_items
 _CHECK_MS = 150  # after the last change
 _DRAWN = 60  # places a move
 _FILES = tr_later("Programs (*.toml)")
+_ADD_TEXTS = {  # of the undo steps
+    "joint": tr_later("Add joint move"),
+    "line": tr_later("Add line move"),
+    "arc": tr_later("Add arc move"),
+    "wait": tr_later("Add wait move"),
+    "gripper": tr_later("Add gripper move"),
+}
 _ADD = (
     ("joint", tr_later("Pose"), tr_later("Add a move of all joints to the present pose")),
     ("line", tr_later("Line"), tr_later("Add a straight line of the tool to where it is now")),
@@ -117,8 +124,8 @@ class ProgramPage(PathPage):
         row = QHBoxLayout()
         row.setSpacing(4)
         for name, text, tip, slot in (
-            ("up", "▲ Up", tr("Move the chosen one up (Alt+Up)"), lambda: self.shift(-1)),
-            ("down", "▼ Down", tr("Move the chosen one down (Alt+Down)"), lambda: self.shift(1)),
+            ("up", tr("▲ Up"), tr("Move the chosen one up (Alt+Up)"), lambda: self.shift(-1)),
+            ("down", tr("▼ Down"), tr("Move the chosen one down (Alt+Down)"), lambda: self.shift(1)),
             ("duplicate", tr("Duplicate"), tr("The chosen one once more"), self.duplicate),
             ("delete", tr("Delete"), tr("Take the chosen one out (Delete)"), self.delete),
         ):
@@ -169,7 +176,7 @@ class ProgramPage(PathPage):
         """Add a move behind the chosen one, or at the end."""
         index = self._chosen + 1 if self._chosen >= 0 else len(self.program)
         self._put(
-            tr("Add {kind} move", kind=kind),
+            tr(_ADD_TEXTS[kind]),
             inserted(self.program, index, new_move(kind, self._session.experiment, index)),
             index,
         )
@@ -178,13 +185,13 @@ class ProgramPage(PathPage):
         """Move the chosen one up (negative) or down."""
         goal = self._chosen + by
         if self._chosen >= 0 and 0 <= goal < len(self.program):
-            self._put(tr("Shift move {chosen}", chosen=self._chosen + 1), shifted(self.program, self._chosen, by), goal)
+            self._put(tr("Shift move {number}", number=self._chosen + 1), shifted(self.program, self._chosen, by), goal)
 
     def duplicate(self) -> None:
         """The chosen one once more behind it."""
         if self._chosen >= 0:
             self._put(
-                tr("Duplicate move {chosen}", chosen=self._chosen + 1),
+                tr("Duplicate move {number}", number=self._chosen + 1),
                 duplicated(self.program, self._chosen),
                 self._chosen + 1,
             )
@@ -193,13 +200,13 @@ class ProgramPage(PathPage):
         """Take the chosen one out."""
         if self._chosen >= 0:
             left = removed(self.program, self._chosen)
-            self._put(tr("Delete move {chosen}", chosen=self._chosen + 1), left, min(self._chosen, len(left) - 1))
+            self._put(tr("Delete move {number}", number=self._chosen + 1), left, min(self._chosen, len(left) - 1))
 
     def _on_edited(self, move: Move, field: str) -> None:
         if self._chosen >= 0:
             after = replaced(self.program, self._chosen, move)
             self._put(
-                tr("Edit move {chosen}", chosen=self._chosen + 1),
+                tr("Edit move {number}", number=self._chosen + 1),
                 after,
                 self._chosen,
                 merge=f"program {self._chosen} {field}",
@@ -263,7 +270,7 @@ class ProgramPage(PathPage):
             seconds = plan.steps[index].duration
             return Row(words, "✓", tr("Can be done, in {seconds:.2f} s.", seconds=seconds))
         if index > done or plan.problem is None:
-            return Row(words, "·", tr("Waits for move {done}.", done=done + 1))
+            return Row(words, "·", tr("Waits for move {number}.", number=done + 1))
         units = shown_units(self._preferences)
         return Row(words, "✗", problem_sentence(plan.robot, plan.moves[index], plan.problem, units), bad=True)
 
@@ -373,8 +380,8 @@ class ProgramPage(PathPage):
 
     def ask_save(self) -> None:
         """Ask for a place and save the program there."""
-        start = str(Path.home() / tr("{name}-program.toml", name=self._session.robot.name))
-        file, _ = QFileDialog.getSaveFileName(self, tr("Save program"), start, _FILES)
+        start = str(Path.home() / f"{self._session.robot.name}-program.toml")
+        file, _ = QFileDialog.getSaveFileName(self, tr("Save program"), start, tr(_FILES))
         if file:
             self.save_to(Path(file) if Path(file).suffix else Path(file).with_suffix(".toml"))
 
@@ -384,7 +391,7 @@ class ProgramPage(PathPage):
             save_program(self.program, self._session.robot, path)
         except OSError as problem:
             self._session.say(
-                tr("Not saved: {path} cannot be written ({value}).", path=path, value=problem.strerror or problem),
+                tr("Not saved: {path} cannot be written ({reason}).", path=path, reason=problem.strerror or problem),
                 "error",
             )
             return
@@ -392,7 +399,7 @@ class ProgramPage(PathPage):
 
     def ask_open(self) -> None:
         """Ask for a file and take its program."""
-        file, _ = QFileDialog.getOpenFileName(self, tr("Open program"), str(Path.home()), _FILES)
+        file, _ = QFileDialog.getOpenFileName(self, tr("Open program"), str(Path.home()), tr(_FILES))
         if file:
             self.open_from(Path(file))
 
@@ -404,7 +411,7 @@ class ProgramPage(PathPage):
             self._session.say(str(problem), "error")
             return
         self._put(tr("Open {name}", name=path.name), program, 0)
-        self._session.say(tr("Opened {count} moves from {path}.", count=len(program), path=path))
+        self._session.say(trn("Opened {n} move from {path}.", "Opened {n} moves from {path}.", len(program), path=path))
 
 
 def _asks_other(before: Experiment, after: Experiment) -> bool:

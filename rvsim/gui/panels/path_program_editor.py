@@ -36,11 +36,14 @@ _TITLES = {
     Wait: tr_later("Wait"),
     Gripper: tr_later("Gripper"),
 }
-_PLACES = {"to": "To", "via": tr_later("Over")}
-_BOXES: dict[str, tuple[str, Kind, float, float]] = {  # title, kind, least, most
-    "speed": (tr_later("Speed"), "percent", 0.01, 1.0),
-    "seconds": (tr_later("Time"), "time", 0.0, 86_400.0),
-    "opening": (tr_later("Open"), "percent", 0.0, 1.0),
+_PLACES = {  # before the axes, and on the button that takes the tool's place
+    "to": (tr_later("To"), tr_later("To where the tool is now")),
+    "via": (tr_later("Over"), tr_later("Over where the tool is now")),
+}
+_BOXES: dict[str, tuple[str, str, Kind, float, float]] = {  # title, what messages call it, kind, least, most
+    "speed": (tr_later("Speed"), tr_later("Speed of the move"), "percent", 0.01, 1.0),
+    "seconds": (tr_later("Time"), tr_later("Time of the move"), "time", 0.0, 86_400.0),
+    "opening": (tr_later("Open"), tr_later("Open of the move"), "percent", 0.0, 1.0),
 }
 
 
@@ -89,7 +92,7 @@ class MoveEditor(QWidget):
         self._inside, self._showers = QWidget(), []
         if self._move is not None:
             rows = form()
-            title = QLabel(_TITLES[type(self._move)])
+            title = QLabel(tr(_TITLES[type(self._move)]))
             set_role(title, role="title")
             rows.addRow(title)
             for field in fields(self._move):
@@ -99,10 +102,10 @@ class MoveEditor(QWidget):
 
     def _add(self, rows: Any, name: str) -> None:
         if name in _BOXES:
-            rows.addRow(_BOXES[name][0], self._box(name))
+            rows.addRow(tr(_BOXES[name][0]), self._box(name))
         elif name in _PLACES:
             rows.addRow(self._place(name))
-            rows.addRow(self._here_button(name, tr("{places} where the tool is now", places=_PLACES[name])))
+            rows.addRow(self._here_button(name, tr(_PLACES[name][1])))
         elif name == "tool":
             rows.addRow(tr("Tool"), self._tool())
         elif name == "rpy" and getattr(self._move, "tool", "") == "turn":
@@ -116,8 +119,8 @@ class MoveEditor(QWidget):
     # --- boxes -----------------------------------------------------------------------------------------------------
 
     def _box(self, name: str) -> QuantityBox:
-        title, kind, least, most = _BOXES[name]
-        box = QuantityBox(kind, self._preferences, tr("{title} of the move", title=title))
+        _, title, kind, least, most = _BOXES[name]
+        box = QuantityBox(kind, self._preferences, tr(title))
         box.setObjectName(f"program_{name}")
         box.set_range(least, most)
         box.quantity_changed.connect(lambda value: self._edit(name, value))
@@ -146,7 +149,7 @@ class MoveEditor(QWidget):
     def _place(self, name: str) -> NumberRow:
         assert self._experiment is not None
         kind = length_kind(self._experiment.robot)
-        title, axes = _PLACES[name], ("x", "y", "z")
+        title, axes = tr(_PLACES[name][0]), ("x", "y", "z")
         names = tuple(f"{title} {axis}" for axis in axes)
         row = self._row(names, (kind,) * 3, tr("Move"), name, slice(None), "program")
         for axis, box in zip(axes, row.boxes, strict=True):
@@ -154,7 +157,7 @@ class MoveEditor(QWidget):
         return row
 
     def _angles(self) -> NumberRow:
-        names: tuple[str, ...] = ("roll", "pitch", "yaw")
+        names: tuple[str, ...] = (tr_later("roll"), tr_later("pitch"), tr_later("yaw"))
         return self._row(names, ("angle",) * 3, tr("Tool"), "rpy", slice(None), "program")
 
     def _joints(self, rows: Any) -> None:
@@ -202,7 +205,7 @@ class MoveEditor(QWidget):
 
     def _here_button(self, field: str, text: str) -> QWidget:
         tip = tr("Take it from the arm as it stands")
-        return button(tr("program_{field}_here", field=field), text, tip, partial(self._take_here, field))
+        return button(f"program_{field}_here", text, tip, partial(self._take_here, field))
 
     # --- values ----------------------------------------------------------------------------------------------------
 

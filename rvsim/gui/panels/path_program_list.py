@@ -112,7 +112,7 @@ class ProgramList(QTableView):
         self.horizontalHeader().setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
         self.selectionModel().currentRowChanged.connect(lambda now, _before: self.chosen.emit(now.row()))
         for key, slot in (
-            (tr("Delete"), self.delete_asked.emit),
+            ("Delete", self.delete_asked.emit),
             ("Alt+Up", lambda: self.shift_asked.emit(-1)),
             ("Alt+Down", lambda: self.shift_asked.emit(1)),
         ):

@@ -38,7 +38,7 @@ class RepairList(QWidget):
             f"{prefix}repairs_cancel", tr("Cancel"), tr("Give up the search for repairs"), self.search.cancel
         )
         self.none = wrapped_label("muted")
-        self.none.setText(_NONE)
+        self.none.setText(tr(_NONE))
         self._offered = QVBoxLayout()
         self._offered.setSpacing(6)
         self._lay_out()

@@ -15,7 +15,7 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.widgets import button, form
 from rvsim.lab.sentences import length_error, tracking_sentence
-from rvsim.language import tr
+from rvsim.language import tr, trn
 from rvsim.motion import Tracking
 from rvsim.motion.between import way_deviation
 
@@ -27,13 +27,23 @@ class ResultSection(QGroupBox):
         super().__init__(tr("Result"))
         self._session, self._preferences, self._tracker = session, preferences, tracker
         self._table: PathPointsDialog | None = None
+        self._make_labels()
+        self._make_buttons()
+        self._lay_out()
+        tracker.search.changed.connect(lambda: QTimer.singleShot(0, self, self._settle))
+        self.show_tracking(None)
+        self.show_busy(False)
+        tracker.busy_changed.connect(self.show_busy)
+        self._wear_units("angle_unit")
+        preferences.changed.connect(self._wear_units)
+
+    def _make_labels(self) -> None:
         self.reached, self.rms, self.largest, self.between, self.time = (QLabel() for _ in range(5))
         self.between.setObjectName("between_label")
         self.between.setToolTip(
             tr(
                 "How far the tool leaves the straight way between neighbouring points: the joints pass the points "
-                "exactly "
-                "and follow a spline between them. More points make it less"
+                "exactly and follow a spline between them. More points make it less"
             )
         )
         self.rms.setObjectName("rms_label")
@@ -41,17 +51,20 @@ class ResultSection(QGroupBox):
         self.sentence = QLabel(wordWrap=True)
         self.sentence.setObjectName("tracking_sentence")
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+
+    def _make_buttons(self) -> None:
         self.busy = QProgressBar()
         self.busy.setObjectName("tracking_progress")
         self.busy.setRange(0, 0)
         self.busy.setTextVisible(False)
         self.busy.setFixedHeight(8)
-        self.cancel = button(
-            "cancel_tracking_button", tr("Cancel"), tr("Give up working this path out"), tracker.cancel
-        )
+        tip = tr("Give up working this path out")
+        self.cancel = button("cancel_tracking_button", tr("Cancel"), tip, self._tracker.cancel)
         tip = tr("Every point of the path with what came of it; a click moves the arm there")
         self.points = button("path_points_button", tr("Points…"), tip, self._show_points)
-        self.repairs = RepairList(tracker, "", told=False)
+        self.repairs = RepairList(self._tracker, "", told=False)
+
+    def _lay_out(self) -> None:
         rows = form()
         reached = QHBoxLayout()
         reached.addWidget(self.reached, 1)
@@ -68,12 +81,6 @@ class ResultSection(QGroupBox):
         rows.addRow(self.sentence)
         rows.addRow(self.repairs)
         self.setLayout(rows)
-        tracker.search.changed.connect(lambda: QTimer.singleShot(0, self, self._settle))
-        self.show_tracking(None)
-        self.show_busy(False)
-        tracker.busy_changed.connect(self.show_busy)
-        self._wear_units("angle_unit")
-        preferences.changed.connect(self._wear_units)
 
     def _settle(self) -> None:
         """A form keeps the heights that its rows had before buttons were added and dressed, until it is told."""
@@ -122,16 +129,21 @@ class ResultSection(QGroupBox):
     def _deviation(self, value: float | None, tracking: Tracking) -> str:
         return "\u2013" if value is None else length_error(tracking.robot, value, self._tracker.units)
 
+    def _at_points(self, value: float | None, tracking: Tracking) -> str:
+        """A deviation, and of which points it is."""
+        text = self._deviation(value, tracking)
+        if not tracking.reached_count:
+            return text
+        if tracking.complete:
+            return tr("{deviation} (at the points)", deviation=text)
+        return tr("{deviation} (reached points)", deviation=text)
+
     def _show_numbers(self, tracking: Tracking) -> None:
         self.reached.setText(
-            tr("{reached_count} of {samples} points", reached_count=tracking.reached_count, samples=tracking.samples)
+            trn("{reached} of {n} point", "{reached} of {n} points", tracking.samples, reached=tracking.reached_count)
         )
-        of_reached = (
-            tr(" (reached points)") if 0 < tracking.reached_count < tracking.samples else tr(" (at the points)")
-        )
-        of_reached = of_reached if tracking.reached_count else ""
-        self.rms.setText(self._deviation(tracking.rms, tracking) + of_reached)
-        self.largest.setText(self._deviation(tracking.max_deviation, tracking) + of_reached)
+        self.rms.setText(self._at_points(tracking.rms, tracking))
+        self.largest.setText(self._at_points(tracking.max_deviation, tracking))
         trajectory = self._tracker.trajectory
         between = None if trajectory is None else way_deviation(trajectory, tracking)
         self.between.setText(self._deviation(between, tracking))
@@ -140,9 +152,9 @@ class ResultSection(QGroupBox):
         milliseconds = tracking.solve_seconds * 1e3
         self.time.setText(
             tr(
-                "{milliseconds:.2f} ms ({seconds_per_point:.0f} µs a point)",
-                milliseconds=milliseconds,
-                seconds_per_point=tracking.seconds_per_point * 1000000.0,
+                "{total:.2f} ms ({each:.0f} µs a point)",
+                total=milliseconds,
+                each=tracking.seconds_per_point * 1e6,
             )
         )
 
@@ -151,11 +163,10 @@ class ResultSection(QGroupBox):
         offsets = tracking.offsets
         if not len(offsets):
             return ""
-        rows: list[tuple[str, ...]] = [("", "RMS", "mean", "largest")]
-        for name, values in (*zip("xyz", offsets.T, strict=True), ("all", tracking.deviation[tracking.reached])):
+        rows: list[tuple[str, ...]] = [("", "RMS", tr("mean"), tr("largest"))]
+        for name, values in (*zip("xyz", offsets.T, strict=True), (tr("all"), tracking.deviation[tracking.reached])):
             numbers = (np.sqrt(np.mean(values**2)), np.mean(values), np.max(np.abs(values)))
             rows.append((name, *(self._deviation(float(number), tracking) for number in numbers)))
         cells = ("".join(f"<td align='right'>&nbsp;{cell}</td>" for cell in row) for row in rows)
-        return "Where the tool is less where it should be, at the reached points<table><tr>{}</tr></table>".format(
-            "</tr><tr>".join(cells)
-        )
+        title = tr("Where the tool is less where it should be, at the reached points")
+        return f"{title}<table><tr>{'</tr><tr>'.join(cells)}</tr></table>"

@@ -9,6 +9,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
 
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index, fit_height, plain_table
+from rvsim.language import tr
 
 _TOP = QModelIndex()
 
@@ -22,7 +23,7 @@ class TextRow(NamedTuple):
 
 
 class RowsModel(QAbstractTableModel):
-    """Heads with tips, and rows; the first column is a name, the others are numbers."""
+    """Heads with tips, said in the language; and rows: the first column is a name, the others are numbers."""
 
     def __init__(self, heads: Sequence[tuple[str, str]]) -> None:
         super().__init__()
@@ -66,7 +67,7 @@ class RowsModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return LEFT if section == 0 else RIGHT
         part = {Qt.ItemDataRole.DisplayRole: 0, Qt.ItemDataRole.ToolTipRole: 1}.get(Qt.ItemDataRole(role))
-        return None if part is None else self._heads[section][part]
+        return None if part is None else tr(self._heads[section][part])
 
 
 def rows_table(name: str, title: str, model: RowsModel) -> QTableView:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QLineEdit, QSpinBox, QVBoxLayout, QWidget
 
 from rvsim.errors import FormulaError
@@ -39,12 +39,11 @@ class _StageRows(QWidget):
         self.samples.setAccessibleName(tr("Stage {number}: number of points", number=number))
         self.samples.setRange(2, MOST_SAMPLES)
         self.samples.setKeyboardTracking(False)
-        self.samples.setSuffix(" pts")
+        self.samples.setSuffix(tr(" pts"))
         self.samples.valueChanged.connect(lambda _: self._tell())
-        self.remove = button(
-            tr("stage{number}_remove", number=number), "\u2212", tr("Take this stage out"), self.removed.emit
-        )
+        self.remove = button(f"stage{number}_remove", "\u2212", tr("Take this stage out"), self.removed.emit)
         self.remove.setMaximumWidth(28)
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # formulas, in any language
         self.lines = {name: self._line(number, name) for name in "xyz"}
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 4)
@@ -70,7 +69,7 @@ class _StageRows(QWidget):
     def show_stage(self, begin: float, stage: FormulaStage, *, only: bool) -> None:
         """Show a stage, silently; the only one cannot be taken out."""
         self._stage = stage
-        self.title.setText(f"t = {begin:g} s to")
+        self.title.setText(tr("t = {begin:g} s to", begin=begin))
         self.end.set_range(begin + 1e-3, 1e4, tr("The stage begins at {begin:g} s.", begin=begin))
         self.end.set_quantity(stage.end)
         with QSignalBlocker(self.samples):
@@ -159,7 +158,7 @@ class FormulaRows(ShapeEditor):
         later = number + 1
         if later < len(stages) and stages[later].end <= stages[number].end:
             self._complain(
-                tr("Stage {later} ends at {end:g} s, before it begins.", later=later + 1, end=stages[later].end)
+                tr("Stage {number} ends at {end:g} s, before it begins.", number=later + 1, end=stages[later].end)
             )
             return
         self._take(replace(self._shape, stages=tuple(stages)))

@@ -87,7 +87,7 @@ class _PointsModel(QAbstractTableModel):
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         if role != Qt.ItemDataRole.DisplayRole or orientation != Qt.Orientation.Horizontal:
             return None
-        return f"{'xyz'[section - 1]} {self.shown.suffix.strip()}" if section else "no."
+        return f"{'xyz'[section - 1]} {self.shown.suffix.strip()}" if section else tr("no.")
 
     def setData(self, index: Index, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:
         if role != Qt.ItemDataRole.EditRole or not index.column():
@@ -127,8 +127,8 @@ class PointRows(ShapeEditor):
         self.samples.setAccessibleName(tr("Number of points on the whole path"))
         self.samples.setRange(2, 5001)
         self.samples.setKeyboardTracking(False)
-        self.samples.setSuffix(" points")
-        self.samples.valueChanged.connect(lambda value: self._edit(tr("shape samples"), samples=value))
+        self.samples.setSuffix(tr(" points"))
+        self.samples.valueChanged.connect(lambda value: self._edit("shape samples", samples=value))
         self.samples.editingFinished.connect(self.finished)
         self._lay_out()
         paste = QShortcut(QKeySequence(QKeySequence.StandardKey.Paste), self.table)
@@ -139,7 +139,7 @@ class PointRows(ShapeEditor):
         tips = (
             ("points_add", tr("Add"), tr("A point after the chosen one, a copy of it"), self.add),
             ("points_delete", tr("Delete"), tr("Take the chosen points out"), self.delete),
-            ("points_up", "Up", tr("The chosen point earlier"), lambda: self._swap(-1)),
+            ("points_up", tr("Up"), tr("The chosen point earlier"), lambda: self._swap(-1)),
             ("points_down", tr("Down"), tr("The chosen point later"), lambda: self._swap(1)),
             (
                 "points_paste",
@@ -198,7 +198,7 @@ class PointRows(ShapeEditor):
     def add_place(self, place: FloatArray) -> None:
         """A point (3,) after the chosen one; the first of one's own begins a path of its own."""
         if len(self.model.points) >= MOST_POINTS:
-            self.refused.emit(tr("Not added: a path has at most {most_points} points.", most_points=MOST_POINTS))
+            self.refused.emit(tr("Not added: a path has at most {most} points.", most=MOST_POINTS))
         elif self.is_example:
             self._on_points(place[None], 0)
         else:
@@ -223,7 +223,7 @@ class PointRows(ShapeEditor):
         if self._robot.length_unit == "millimetre":
             pasted = np.asarray(metres_from_millimetres(pasted))
         if len(pasted) + len(self.model.points) > MOST_POINTS:
-            self.refused.emit(tr("Not pasted: a path has at most {most_points} points.", most_points=MOST_POINTS))
+            self.refused.emit(tr("Not pasted: a path has at most {most} points.", most=MOST_POINTS))
             return
         row = self._row()
         self._on_points(np.insert(self.model.points, [row + 1] * len(pasted), pasted, axis=0), row + len(pasted))

@@ -30,7 +30,7 @@ _IN_ROW = 3
 
 
 class Field(NamedTuple):
-    """One number of a shape: its attribute, the name above its box, what kind it is, and what it may be [SI]."""
+    """One number of a shape: its attribute, the English above its box, what kind it is, and what it may be [SI]."""
 
     name: str
     title: str
@@ -43,24 +43,32 @@ def _length(name: str, title: str, lower: float = 1e-4) -> Field:
     return Field(name, title, "length", lower, 1e3)
 
 
-_POINTS = Field("samples", "points", "count", 2, 5001)
+_RADIUS = tr_later("radius")
+_POINTS = Field("samples", tr_later("points"), "count", 2, 5001)
 FIELDS: dict[type[Shape], tuple[Field, ...]] = {
-    CircleShape: (_length("radius", "radius"), _POINTS),
+    CircleShape: (_length("radius", _RADIUS), _POINTS),
     ArcShape: (
-        _length("radius", "radius"),
-        Field("begin", "from", "angle", -12.6, 12.6),
-        Field("sweep", "by", "angle", -12.6, 12.6),
+        _length("radius", _RADIUS),
+        Field("begin", tr_later("from"), "angle", -12.6, 12.6),
+        Field("sweep", tr_later("by"), "angle", -12.6, 12.6),
         _POINTS,
     ),
     ArcThroughShape: (_POINTS,),
     EllipseShape: (_length("a", tr_later("half axis x")), _length("b", tr_later("half axis y")), _POINTS),
-    PolygonShape: (_length("radius", "radius"), Field("corners", "corners", "count", 3, 60), _POINTS),
-    StarShape: (_length("radius", "radius"), _POINTS),
+    PolygonShape: (_length("radius", _RADIUS), Field("corners", tr_later("corners"), "count", 3, 60), _POINTS),
+    StarShape: (_length("radius", _RADIUS), _POINTS),
     TextShape: (
         _length("height", tr_later("letter height")),
         _length("lift", tr_later("pen lift"), 0.0),
         _length("spacing", tr_later("point spacing"), 1e-4),
     ),
+}
+
+
+_ENDS = {  # of an arc: the label of a point, and what messages call it
+    "start": (tr_later("Start"), tr_later("Arc start")),
+    "via": (tr_later("Via"), tr_later("Arc via")),
+    "end": (tr_later("End"), tr_later("Arc end")),
 }
 
 
@@ -106,7 +114,7 @@ class ShapeRows(ShapeEditor):
         box.setMinimumWidth(64)
         box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         box.editingFinished.connect(self.finished)
-        label = QLabel(field.title)
+        label = QLabel(tr(field.title))
         label.setBuddy(box)
         set_role(label, role="muted")
         self._grid.addWidget(label, row, column)
@@ -118,13 +126,13 @@ class ShapeRows(ShapeEditor):
         box = QSpinBox()
         box.setRange(int(field.lower), int(field.upper))
         box.setKeyboardTracking(False)
-        box.setAccessibleName(tr("Shape: {title}", title=field.title))
+        box.setAccessibleName(tr("Shape: {quantity}", quantity=tr(field.title)))
         box.valueChanged.connect(lambda value: self._edit(**{field.name: value}))
         return box
 
     def _quantity(self, field: Field) -> QuantityBox:
         kind: Kind = length_kind(self._robot) if field.kind == "length" else "angle"
-        box = QuantityBox(kind, self._preferences, tr("Shape: {title}", title=field.title))
+        box = QuantityBox(kind, self._preferences, tr("Shape: {quantity}", quantity=tr(field.title)))
         box.set_range(field.lower, field.upper, tr("Nothing of that size can be drawn."))
         box.quantity_changed.connect(lambda value: self._edit(**{field.name: value}))
         box.refused.connect(self.refused)
@@ -141,14 +149,12 @@ class ShapeRows(ShapeEditor):
 
     def _add_corners(self) -> None:
         kind = length_kind(self._robot)
-        for number, title in enumerate(("start", "via", "end")):
-            row = NumberRow(
-                f"arc_{title}", ("x", "y", "z"), (kind,) * 3, self._preferences, tr("Arc {title}", title=title)
-            )
+        for number, (name, (title, long_title)) in enumerate(_ENDS.items()):
+            row = NumberRow(f"arc_{name}", ("x", "y", "z"), (kind,) * 3, self._preferences, tr(long_title))
             row.edited.connect(lambda _, number=number: self._on_corner(number))
             row.refused.connect(self.refused)
             row.finished.connect(self.finished)
-            label = QLabel(title.capitalize())
+            label = QLabel(tr(title))
             self._grid.addWidget(label, 2 * number, 0, 1, _IN_ROW)
             self._grid.addWidget(row, 2 * number + 1, 0, 1, _IN_ROW)
             self.corners.append(row)
@@ -159,7 +165,7 @@ class ShapeRows(ShapeEditor):
         self._edit(points=points)
 
     def _edit(self, **changes: Any) -> None:
-        self.edited.emit(replace(self._shape, **changes), tr("shape {changes}", changes=" ".join(changes)))
+        self.edited.emit(replace(self._shape, **changes), f"shape {' '.join(changes)}")
 
     def show_shape(self, shape: Shape) -> None:
         """Show its numbers, silently."""

@@ -124,11 +124,11 @@ class TrajectorySection(QGroupBox):
         with QSignalBlocker(self.selector):
             self.selector.clear()
             for name in own:
-                self.selector.addItem(path_entry(name).title, name)
+                self.selector.addItem(tr(path_entry(name).title), name)
             if own:
                 self.selector.insertSeparator(len(own))
             for name, kind in SHAPES.items():
-                self.selector.addItem(kind.title, name)
+                self.selector.addItem(tr(kind.title), name)
             self.selector.addItem(tr("CSV file…"), _FILE)
             self.selector.setCurrentIndex(self.selector.findData(task.name))
 
@@ -174,7 +174,8 @@ class TrajectorySection(QGroupBox):
         if name == _FILE:
             self._choose_file()
         elif name != self._session.experiment.trajectory.name:
-            self._put(TrajectoryTask(name), "", tr("Trajectory: {itemText}", itemText=self.selector.itemText(index)))
+            title = SHAPES[name].title if name in SHAPES else path_entry(name).title
+            self._put(TrajectoryTask(name), "", tr("Trajectory: {name}", name=tr(title)))
 
     def _choose_file(self) -> None:
         """Ask for a file; its points become the table, to be changed like typed ones."""
@@ -197,10 +198,10 @@ class TrajectorySection(QGroupBox):
         if len(points) > MOST_POINTS:
             self._session.say(
                 tr(
-                    "{name} has {count} points; a path has at most {most_points}.",
+                    "{name} has {count} points; a path has at most {most}.",
                     name=FilePath(file).name,
                     count=len(points),
-                    most_points=MOST_POINTS,
+                    most=MOST_POINTS,
                 ),
                 "error",
             )
@@ -212,7 +213,7 @@ class TrajectorySection(QGroupBox):
         self._put(replace(self._session.experiment.trajectory, shape=shape), merge)
 
     def _on_height(self, value: float) -> None:
-        self._put(replace(self._session.experiment.trajectory, height=value), tr("trajectory height"))
+        self._put(replace(self._session.experiment.trajectory, height=value), "trajectory height")
 
     def _put(self, task: TrajectoryTask, merge: str, text: str = "") -> None:
         text = text or trajectory_words(self._session.experiment.trajectory, task)
@@ -228,7 +229,7 @@ def _editor_of(shape: Shape, robot: Robot, preferences: Preferences, clicks: Poi
 
 
 def _known_about(name: str) -> str:
-    return "" if name.lower().endswith(".csv") else path_entry(name).citation
+    return "" if name.lower().endswith(".csv") else tr(path_entry(name).citation)
 
 
 def _file_points(file: str, robot: Robot) -> FloatArray:

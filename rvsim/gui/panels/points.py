@@ -18,7 +18,7 @@ from rvsim.gui.quantities import Display, display, format_number, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.lab.texts import matrix_latex, matrix_numpy, table_tsv
-from rvsim.language import tr
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.points import source_points
@@ -30,9 +30,15 @@ _BASE_COLOR = "#8b96a3"
 
 
 def point_names(robot: Robot) -> list[str]:
-    """What each row of `source_points` is: the origins O₀ … Oₙ of the frames, then the gripper's points."""
+    """What each row of `source_points` is: the origins O₀ … Oₙ of the frames, then the gripper's points; English."""
     origins = [f"O{subscript(i)}  {name}" for i, name in enumerate(("base", *robot.joint_names))]
-    return [*origins, *(tr("grip {i}", i=i) for i in range(1, _gripper_size(robot) + 1))]
+    return [*origins, *(f"grip {i}" for i in range(1, _gripper_size(robot) + 1))]
+
+
+def point_titles(robot: Robot) -> list[str]:
+    """The same in the language that is spoken."""
+    origins = [f"O{subscript(i)}  {tr(name)}" for i, name in enumerate((tr_later("base"), *robot.joint_names))]
+    return [*origins, *(tr("grip {number}", number=i) for i in range(1, _gripper_size(robot) + 1))]
 
 
 def point_colors(robot: Robot) -> list[str]:
@@ -55,7 +61,7 @@ class PointsModel(QAbstractTableModel):
 
     def _take(self, robot: Robot, points: FloatArray) -> None:
         self._robot, self._points = robot, points
-        self.names, self._colors = point_names(robot), point_colors(robot)
+        self.names, self._titles, self._colors = point_names(robot), point_titles(robot), point_colors(robot)
 
     def show_points(self, robot: Robot, points: FloatArray) -> None:
         """Show the points (k, 3) of an arm."""
@@ -96,12 +102,13 @@ class PointsModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.DisplayRole:
             return format_number(value, self.shown.decimals)
         if role == Qt.ItemDataRole.ToolTipRole:
-            return f"{_AXES[column - 1]} of {self.names[row]}: {value:.12g}{self.shown.suffix}"
+            number = f"{value:.12g}{self.shown.suffix}"
+            return tr("{axis} of {point}: {number}", axis=_AXES[column - 1], point=self._titles[row], number=number)
         return None
 
     def _name_data(self, row: int, role: int) -> Any:
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole):
-            return self.names[row]
+            return self._titles[row]
         if role == Qt.ItemDataRole.DecorationRole:
             return dot(self._colors[row])
         return None
@@ -113,7 +120,7 @@ class PointsModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return LEFT if section == 0 else RIGHT
         if role == Qt.ItemDataRole.DisplayRole:
-            return f"{_AXES[section - 1]} {self.shown.suffix.strip()}" if section else "point"
+            return f"{_AXES[section - 1]} {self.shown.suffix.strip()}" if section else tr("point")
         return None
 
 
@@ -126,7 +133,7 @@ class PointsPanel(ReadOutPanel):
         self.model = PointsModel(session.robot, preferences, self)
         self.table = plain_table("points_table", tr("Points of the arm"), self.model)
         self.note = QLabel()
-        formats = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
+        formats = {tr_later("text"): self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
         self.copy = CopyButton("points_copy", tr("the point table"), formats, session)
         self._lay_out()
         shortcut = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self.table)
@@ -157,10 +164,7 @@ class PointsPanel(ReadOutPanel):
         self.model.show_points(robot, source_points(robot, self._session.q))
         fit_height(self.table)
         self._fit_columns()
-        source = (
-            tr("the table of source 000's Program 3; there in dm") if robot.name == "rv-m1" else tr("base coordinates")
-        )
-        text = tr("{rowCount} points × 3 coordinates: {source}.", rowCount=self.model.rowCount(), source=source)
+        text = _note(robot, self.model.rowCount())
         if self.note.text() != text:
             self.note.setText(text)
 
@@ -184,6 +188,16 @@ class PointsPanel(ReadOutPanel):
 
     def _as_latex(self) -> str:
         return f"% x, y, z [{self.model.shown.suffix.strip()}]\n{matrix_latex(self.model.shown_points())}"
+
+
+def _note(robot: Robot, points: int) -> str:
+    if robot.name == "rv-m1":
+        return trn(
+            "{n} point × 3 coordinates: the table of source 000's Program 3; there in dm.",
+            "{n} points × 3 coordinates: the table of source 000's Program 3; there in dm.",
+            points,
+        )
+    return trn("{n} point × 3 coordinates: base coordinates.", "{n} points × 3 coordinates: base coordinates.", points)
 
 
 def _ascii(name: str) -> str:

@@ -17,11 +17,15 @@ CELL_MARGIN = 9  # [pixels] that a cell keeps left and right of its text, togeth
 
 
 def plain_table(name: str, title: str, model: QAbstractItemModel, table: QTableView | None = None) -> QTableView:
-    """A calm table of a model; its columns share the width. `table` is an empty one to be made so."""
+    """A calm table of a model; its columns share the width. `table` is an empty one to be made so.
+
+    Numbers stand from left to right in any language, as they do in formulas.
+    """
     table = table or QTableView()
     table.setObjectName(name)
     table.setAccessibleName(title)
     table.setModel(model)
+    table.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
     table.setShowGrid(False)
     table.setAlternatingRowColors(True)
     table.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)

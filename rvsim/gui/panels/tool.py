@@ -56,7 +56,7 @@ class ToolPanel(ReadOutPanel):
         self.matrix = MatrixView(preferences, tr("Tool pose as a matrix"))
         self.matrix.setObjectName("tool_matrix")
         self.convention, self.message, self.difference = QLabel(), QLabel(), QLabel()
-        formats = {"text": self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
+        formats = {tr_later("text"): self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
         self.copy = CopyButton("tool_copy", tr("the tool pose"), formats, session)
         self._connect()
         self._lay_out()
@@ -83,7 +83,7 @@ class ToolPanel(ReadOutPanel):
             set_role(label, role="muted")
         set_role(self.message, role="", level="warning")
         self.message.hide()
-        self.difference.setToolTip(f"<qt>{_SECOND_WAY.replace(chr(10) * 2, '<br><br>')}</qt>")
+        self.difference.setToolTip(f"<qt>{tr(_SECOND_WAY).replace(chr(10) * 2, '<br><br>')}</qt>")
         inside = QWidget()
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
@@ -129,8 +129,9 @@ class ToolPanel(ReadOutPanel):
             position=position,
             rotation=rotation,
         )
-        own = tr("\nSource 000's “zero error” here is really 1.018 dm.") if "rv-m1" in robot.name else ""
-        self.difference.setText(text + own)
+        if "rv-m1" in robot.name:
+            text += "\n" + tr("Source 000's “zero error” here is really 1.018 dm.")
+        self.difference.setText(text)
 
     def _show_orientation(self, chosen: str) -> None:
         select(self.orientations, chosen)
@@ -148,7 +149,7 @@ class ToolPanel(ReadOutPanel):
         self._robot = robot
         self.tools.clear()
         for tool in robot.tools:
-            self.tools.addItem(tool.title, tool.name)
+            self.tools.addItem(tr(tool.title), tool.name)
         select(self.tools, robot.tool_name)
         for box in self.position.boxes:
             box.set_kind(length_kind(robot))
@@ -165,17 +166,16 @@ class ToolPanel(ReadOutPanel):
         name = self.tools.currentData()
         if name != self._session.robot.tool_name:
             robot = self._session.robot.with_tool(name)
-            self._session.edit(
-                tr("Take the {title}", title=robot.tool.title), self._session.experiment.with_robot(robot)
-            )
+            text = tr("Take the {tool}", tool=tr(robot.tool.title))
+            self._session.edit(text, self._session.experiment.with_robot(robot))
 
     def _move(self, axis: int) -> None:
         edit = moved_tool(self._session.experiment, self._T, self.position.values, shown_units(self._preferences))
-        self._take(edit, tr("Move the tool along {axes}", axes=_AXES[axis]), tr("tool {axes}", axes=_AXES[axis]))
+        self._take(edit, tr("Move the tool along {axis}", axis=_AXES[axis]), f"tool {_AXES[axis]}")
 
     def _turn(self, R: FloatArray, name: str) -> None:
         edit = turned_tool(self._session.experiment, self._T, R, shown_units(self._preferences))
-        self._take(edit, tr("Turn the tool's {name}", name=name), tr("tool {name}", name=name))
+        self._take(edit, tr("Turn the tool's {angle}", angle=tr(name)), f"tool {name}")
 
     def _take(self, edit: ToolEdit, text: str, merge: str) -> None:
         if edit.q is not None:
@@ -201,7 +201,7 @@ class ToolPanel(ReadOutPanel):
 
     def _matrix_head(self) -> str:
         unit = display(length_kind(self._session.robot), self._preferences).suffix.strip()
-        return tr("T_base_tool, lengths in {unit}", unit=unit)
+        return f"T_base_tool, lengths in {unit}"
 
     def _is_matrix(self) -> bool:
         return bool(self._preferences["orientation"] == MATRIX)

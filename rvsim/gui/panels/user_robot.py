@@ -58,14 +58,14 @@ def ask_where_to_save(parent: QWidget, robot: Robot) -> Path | None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError:
         offered = Path.home() / offered.name
-    chosen, _ = QFileDialog.getSaveFileName(parent, tr("Save as robot file"), str(offered), _FILTER)
+    chosen, _ = QFileDialog.getSaveFileName(parent, tr("Save as robot file"), str(offered), tr(_FILTER))
     return Path(chosen) if chosen else None
 
 
 def ask_what_to_open(parent: QWidget, robot: Robot) -> Path | None:
     """The robot file that the user chooses, or None."""
     folder = user_robot_path(robot.title).parent
-    chosen, _ = QFileDialog.getOpenFileName(parent, tr("Open robot file"), str(folder), _FILTER)
+    chosen, _ = QFileDialog.getOpenFileName(parent, tr("Open robot file"), str(folder), tr(_FILTER))
     return Path(chosen) if chosen else None
 
 
@@ -85,11 +85,13 @@ def saved(session: Session, path: Path) -> tuple[bool, str]:
     except RvsimError as problem:
         return False, str(problem)
     except OSError as problem:
-        return False, tr("Not saved: {path} cannot be written ({value}).", path=path, value=problem.strerror or problem)
+        return False, tr(
+            "Not saved: {path} cannot be written ({reason}).", path=path, reason=problem.strerror or problem
+        )
     shown = named_after(session.robot, path)  # its limits are narrower while an arm is connected
     if shown is not session.robot:
         session.edit(tr("Save as {name}", name=path.name), session.experiment.with_robot(shown))
-    return True, tr("Saved {title} as {path}.", title=robot.title, path=path)
+    return True, tr("Saved {robot} as {path}.", robot=robot.title, path=path)
 
 
 def opened(path: Path) -> tuple[Robot | None, str]:
@@ -98,4 +100,4 @@ def opened(path: Path) -> tuple[Robot | None, str]:
         robot = open_robot(path)
     except RvsimError as problem:
         return None, str(problem)
-    return robot, tr("Opened {title} from {path}.", title=robot.title, path=path)
+    return robot, tr("Opened {robot} from {path}.", robot=robot.title, path=path)
