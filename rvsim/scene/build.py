@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rvsim.kinematics import link_transforms
+from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.scene.floor import Extent, floor_items
 from rvsim.scene.palette import ScenePalette
@@ -54,7 +55,7 @@ def compose(
         opening: of the gripper, 0 (closed) … 1 (open).
     """
     chosen = options or SceneOptions()
-    unit = "unit" if robot.length_unit == "unit" else chosen.length_unit
+    unit = tr("unit") if robot.length_unit == "unit" else chosen.length_unit
     floor = floor_items(palette, floor_extent(robot), unit) if chosen.floor else ()
     arm = arm_items(robot, q, palette, look=chosen.look, frames=chosen.frames, labels=chosen.labels, opening=opening)
     return Scene((*floor, *extras, *arm), palette.background, scene_bounds(robot))

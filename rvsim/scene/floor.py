@@ -36,7 +36,7 @@ class Extent(NamedTuple):
 
 @lru_cache(maxsize=16)
 def floor_items(palette: ScenePalette, extent: Extent, unit: str) -> tuple[Item, ...]:
-    """The floor under an arm that reaches over `extent` [m]; its numbers are in `unit`, "mm", "m" or "unit".
+    """The floor under an arm that reaches over `extent` [m]; its numbers are in `unit`, "mm", "m" or the word for unit.
 
     The same arguments give the same objects, so that a renderer draws them again without looking.
     """

@@ -15,7 +15,7 @@ from rvsim.gui.panels.inspect_workspace import WorkspacePage
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
-from rvsim.language import tr_later
+from rvsim.language import tr, tr_later
 
 INSPECT: tuple[tuple[type[InspectPage], str], ...] = (
     (JacobianPage, tr_later("The Jacobian, entry by entry, and where each column comes from")),
@@ -31,7 +31,9 @@ INSPECT: tuple[tuple[type[InspectPage], str], ...] = (
 def inspector(session: Session, preferences: Preferences, stage: Stage) -> PageStack:
     """All pages behind their buttons; what leads from one to the page of the sources does so."""
     arguments = (session, preferences, stage)
-    pages = [Page(kind.name.removeprefix("inspect_"), kind.title, tip, kind(*arguments)) for kind, tip in INSPECT]
+    pages = [
+        Page(kind.name.removeprefix("inspect_"), tr(kind.title), tr(tip), kind(*arguments)) for kind, tip in INSPECT
+    ]
     stack = PageStack("inspect_pages", pages)
     sources = next(page.widget for page in pages if isinstance(page.widget, SourcePage))
 

@@ -257,11 +257,11 @@ class DynamicsPage(InspectPage):
         except RobotDefinitionError as problem:
             self._complain(str(problem))
             return
-        self._use(robot, tr("Edit the mass data of {title}", title=robot.title))
+        self._use(robot, tr("Edit the mass data of {robot}", robot=robot.title))
 
     def _guess(self) -> None:
         robot = with_guessed_masses(own_copy(self._session.robot))
-        self._use(robot, tr("Give {title} masses", title=robot.title))
+        self._use(robot, tr("Give {robot} masses", robot=robot.title))
 
     def _use(self, robot: Robot, text: str) -> None:
         self._session.edit(text, self._session.experiment.with_robot(robot))
@@ -271,11 +271,11 @@ class DynamicsPage(InspectPage):
     def _head(self) -> str:
         robot = self._session.robot
         units = ", ".join(f"{name} [{unit}]" for name, unit in zip(robot.joint_names, self.model.units(), strict=True))
-        return tr("{title}: gravity, Coriolis, inertia, sum of {units}", title=robot.title, units=units)
+        return f"{robot.title}: gravity, Coriolis, inertia, sum of {units}"
 
     def _as_text(self) -> str:
         joints = zip(self._session.robot.joint_names, self.model.values.tolist(), strict=True)
-        header = [self._head(), "gravity", tr("Coriolis"), "inertia", "sum"]
+        header = [self._head(), "gravity", "Coriolis", "inertia", "sum"]
         return table_tsv(header, ([name, *row] for name, row in joints))
 
     def _as_numpy(self) -> str:

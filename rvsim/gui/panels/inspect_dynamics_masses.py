@@ -15,7 +15,7 @@ from rvsim.gui.panels.number_cells import make_editable
 from rvsim.gui.panels.tables import CELL_MARGIN, LEFT, RIGHT, Index, decimals_that_fit, dot, plain_table, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, Kind, display, format_number, length_kind, without_unit
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.mass_edits import MassKey, mass_value
 from rvsim.robot.robot import LinkMass
@@ -31,14 +31,14 @@ class MassColumn(NamedTuple):
     tip: str
 
 
-_COM = tr_later("of the centre of mass, in the link's DH frame")
-_MOMENT = tr_later("Moment of inertia about the centre of mass and the link's")
 COLUMNS = (
     MassColumn("mass", "m", tr_later("Mass of the link")),
-    *(MassColumn(key, key, f"{key} {_COM}") for key in ("x", "y", "z")),
-    MassColumn("xx", "Ixx", f"{_MOMENT} x axis"),
-    MassColumn("yy", "Iyy", f"{_MOMENT} y axis"),
-    MassColumn("zz", "Izz", f"{_MOMENT} z axis"),
+    MassColumn("x", "x", tr_later("x of the centre of mass, in the link's DH frame")),
+    MassColumn("y", "y", tr_later("y of the centre of mass, in the link's DH frame")),
+    MassColumn("z", "z", tr_later("z of the centre of mass, in the link's DH frame")),
+    MassColumn("xx", "Ixx", tr_later("Moment of inertia about the centre of mass and the link's x axis")),
+    MassColumn("yy", "Iyy", tr_later("Moment of inertia about the centre of mass and the link's y axis")),
+    MassColumn("zz", "Izz", tr_later("Moment of inertia about the centre of mass and the link's z axis")),
 )
 CENTER_COLUMNS, INERTIA_COLUMNS = range(1, 5), range(5, 8)
 
@@ -148,16 +148,18 @@ class MassModel(QAbstractTableModel):
         return font
 
     def _tip(self, index: Index) -> str:
-        name = tr("The link behind “{joint_names}”", joint_names=self._robot.joint_names[index.row()])
+        name = tr("The link behind “{joint}”", joint=tr(self._robot.joint_names[index.row()]))
         if not self._robot.masses:
-            return tr("{name}: nothing is known. Double-click or type to enter a number.", name=name)
+            return tr("{link}: nothing is known. Double-click or type to enter a number.", link=name)
         link = self._robot.masses[index.row()]
         if is_unsaid(link, COLUMNS[index.column() - 1].key):
-            return tr("{name}: not in the source ({source}), taken as 0.", name=name, source=link.source)
+            return tr("{link}: not in the source ({source}), taken as 0.", link=name, source=link.source)
         if index.column() > 0:
             number = self._text(index, whole=True).replace("-", "\u2212")
-            name = f"{name}: {number}{self._shown(index.column()).suffix}"
-        return f"{name}. {'Assumed: ' if link.assumed else 'From: '}{link.source or 'its robot file'}."
+            name = f"{name}: {left_to_right(number + self._shown(index.column()).suffix)}"
+        source = link.source or tr("its robot file")
+        origin = tr("Assumed: {source}.", source=source) if link.assumed else tr("From: {source}.", source=source)
+        return f"{name}. {origin}"
 
     def setData(self, index: Index, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:
         """Take a typed text: a number or an expression in the shown unit."""
@@ -182,11 +184,11 @@ class MassModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return LEFT if section == 0 else RIGHT
         if role == Qt.ItemDataRole.ToolTipRole:
-            return tr("The link behind that joint") if section == 0 else COLUMNS[section - 1].tip
+            return tr("The link behind that joint") if section == 0 else tr(COLUMNS[section - 1].tip)
         if role != Qt.ItemDataRole.DisplayRole:
             return None
         if section == 0:
-            return "link"
+            return tr("link")
         column = COLUMNS[section - 1]
         unit = self._shown(section).suffix.strip()
         one_line = f"{column.head} {unit}"

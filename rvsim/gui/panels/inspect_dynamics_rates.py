@@ -48,7 +48,7 @@ class RateRows(QWidget):
             if (old := item.widget()) is not None:
                 old.hide()
                 old.deleteLater()
-        for column, text in ((2, "velocity"), (3, "acceleration")):
+        for column, text in ((2, tr("velocity")), (3, tr("acceleration"))):
             head = QLabel(text)
             set_role(head, role="muted")
             self._grid.addWidget(head, 0, column, Qt.AlignmentFlag.AlignRight)
@@ -58,16 +58,17 @@ class RateRows(QWidget):
 
     def _add_row(self, robot: Robot, joint: int) -> None:
         name, mark = ElidedLabel(), QLabel()
-        name.setText(robot.joint_names[joint])
+        title = tr(robot.joint_names[joint])
+        name.setText(title)
         mark.setPixmap(dot(robot.joints[joint].color).pixmap(_DOT, _DOT))
         speed = self._box(
             f"qd_{joint + 1}",
-            tr("Velocity of {joint_names}", joint_names=robot.joint_names[joint]),
+            tr("Velocity of {joint}", joint=title),
             speed_kind(robot, joint),
         )
         driven = self._box(
             f"qdd_{joint + 1}",
-            tr("Acceleration of {joint_names}", joint_names=robot.joint_names[joint]),
+            tr("Acceleration of {joint}", joint=title),
             acceleration_kind(robot, joint),
         )
         for column, widget in enumerate((mark, name, speed, driven)):

@@ -11,13 +11,13 @@ from PySide6.QtWidgets import QHeaderView, QTableView
 from rvsim.gui.panels.tables import CELL_MARGIN, LEFT, RIGHT, Index, decimals_that_fit, dot, plain_table, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, torque_kind
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _TOP = QModelIndex()
-PARTS = ("gravity", tr_later("Coriolis"), "inertia", "sum τ")
-_SHORT = ("grav.", tr_later("Cor."), "inert.", "sum τ")
+PARTS = (tr_later("gravity"), tr_later("Coriolis"), tr_later("inertia"), tr_later("sum τ"))
+_SHORT = (tr_later("grav."), tr_later("Cor."), tr_later("inert."), tr_later("sum τ"))
 _MORE = 1  # decimals: a small arm's parts are small
 _TIPS = (
     tr_later("The joint"),
@@ -49,8 +49,9 @@ class PartsModel(QAbstractTableModel):
 
     def _heads(self) -> tuple[str, ...]:
         """In words where there is room."""
-        widest = max(text_metrics().horizontalAdvance(part) for part in PARTS)
-        return ("joint", *(PARTS if widest <= self._room() else _SHORT))
+        parts = [tr(part) for part in PARTS]
+        widest = max(text_metrics().horizontalAdvance(part) for part in parts)
+        return (tr("joint"), *(parts if widest <= self._room() else map(tr, _SHORT)))
 
     def _choose_decimals(self) -> None:
         wanted = [
@@ -106,7 +107,8 @@ class PartsModel(QAbstractTableModel):
     def _tip(self, joint: int) -> str:
         unit = self.units()[joint]
         parts = zip(PARTS, self.values[joint].tolist(), strict=True)
-        return f"{self._robot.joint_names[joint]}: " + ", ".join(f"{name} {value:.6g} {unit}" for name, value in parts)
+        numbers = tr(", ").join(f"{tr(part)} {left_to_right(f'{value:.6g} {unit}')}" for part, value in parts)
+        return f"{tr(self._robot.joint_names[joint])}: {numbers}"
 
     def units(self) -> list[str]:
         """The unit of each joint."""
@@ -120,7 +122,7 @@ class PartsModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.DisplayRole:
             return self._heads()[section]
         if role == Qt.ItemDataRole.ToolTipRole:
-            return _TIPS[section]
+            return tr(_TIPS[section])
         return {Qt.ItemDataRole.TextAlignmentRole: LEFT if section == 0 else RIGHT}.get(Qt.ItemDataRole(role))
 
 

@@ -16,7 +16,7 @@ PLACES: Mapping[str, str] = {
     "9.80665": tr_later("Earth"),
     "1.62": tr_later("Moon"),
     "3.71": tr_later("Mars"),
-    "0.0": "none",
+    "0.0": tr_later("none"),
 }
 _LARGE_ARM = 0.5  # [kg m²]
 
@@ -25,7 +25,7 @@ def rates_note(time: float | None) -> str:
     """Where the rates come from."""
     if time is None:
         return tr("Type rates, or play a motion: then they are the motion's own.")
-    return tr("From the motion, {format_number} s after its start.", format_number=format_number(time, 2))
+    return tr("From the motion, {time} s after its start.", time=format_number(time, 2))
 
 
 def energy_text(kinetic: float, potential: float, power: float, preferences: Preferences) -> str:
@@ -33,19 +33,19 @@ def energy_text(kinetic: float, potential: float, power: float, preferences: Pre
     T, V = (format_quantity(value, "energy", preferences) for value in (kinetic, potential))
     decimals = 2 + preferences["extra_decimals"]
     return tr(
-        "Kinetic {t}, potential {v}, power of the drives {format_number} W.",
-        t=T,
-        v=V,
-        format_number=format_number(power, decimals),
+        "Kinetic {kinetic}, potential {potential}, power of the drives {power} W.",
+        kinetic=T,
+        potential=V,
+        power=format_number(power, decimals),
     )
 
 
 def no_mass_text(robot: Robot) -> str:
     """The empty state."""
     return tr(
-        "No mass data: no source says what the links of the {title} weigh, so nothing can be said about its "
+        "No mass data: no source says what the links of the {robot} weigh, so nothing can be said about its "
         "dynamics. Type masses below, or start with a guess: the arm becomes a copy of your own, which can be saved.",
-        title=robot.title,
+        robot=robot.title,
     )
 
 
@@ -59,7 +59,7 @@ def mass_note(robot: Robot) -> str:
     parts += _unsaid_note(robot)
     sources = dict.fromkeys(link.source for link in robot.masses if link.source)
     if sources:
-        parts.append(tr("Source: {sources}.", sources="; ".join(sources)))
+        parts.append(tr("Source: {sources}.", sources=tr("; ").join(sources)))
     return " ".join([*parts, tr("Double-click a number to change it: the arm follows on a copy of your own.")])
 
 
@@ -69,21 +69,29 @@ def _unsaid_note(robot: Robot) -> list[str]:
     if not any(silent):
         return []
     others = [f"{number}" for number, unsaid in enumerate(silent, start=1) if not unsaid]
-    but = tr(" but for link {others}", others=", ".join(others)) if others else ""
-    return [tr("\u2013: not in the source, taken as 0; the mass matrix is that of point masses{but}.", but=but)]
+    if not others:
+        return [tr("\u2013: not in the source, taken as 0; the mass matrix is that of point masses.")]
+    return [
+        tr(
+            "\u2013: not in the source, taken as 0; the mass matrix is that of point masses but for link {links}.",
+            links=", ".join(others),
+        )
+    ]
 
 
 def torques_title(units: Sequence[str]) -> str:
     """With the unit that all joints share; else it stands at the sums."""
-    return tr("Joint torques, {units}", units=units[0]) if len(set(units)) == 1 else tr("Joint torques")
+    return tr("Joint torques, {unit}", unit=units[0]) if len(set(units)) == 1 else tr("Joint torques")
 
 
 def matrix_note(robot: Robot) -> str:
     """Its units, and what it is for."""
     units = (
-        "kg m²" if robot.is_revolute.all() else tr("kg m² between turning joints, kg between sliding ones, else kg m")
+        tr("In kg m².")
+        if robot.is_revolute.all()
+        else tr("In kg m² between turning joints, kg between sliding ones, else kg m.")
     )
-    return tr("In {units}. Kinetic energy: ½ vᵀ M v, v the joint velocities.", units=units)
+    return f"{units} {tr('Kinetic energy: ½ vᵀ M v, v the joint velocities.')}"
 
 
 def matrix_decimals(robot: Robot) -> int:

@@ -22,6 +22,7 @@ from rvsim.gui.panels.inspect_forces_words import (
     DIRECTIONS,
     HANGING,
     besides_text,
+    counted_text,
     direction_vector,
     largest_text,
     legend,
@@ -70,8 +71,8 @@ class ForcesPage(InspectPage):
         self._torques: FloatArray = np.zeros(0)
         self.axes = combo("wrench_axes", tr("Axes of the wrench"), AXES)
         self.axes.activated.connect(lambda _: self._take_axes())
-        self.forces = self._row(_FORCES, "force", 0, "force")
-        self.moments = self._row(_MOMENTS, "torque", 3, "moment")
+        self.forces = self._row(_FORCES, "force", 0, tr("Set the force at the tool"))
+        self.moments = self._row(_MOMENTS, "torque", 3, tr("Set the moment at the tool"))
         self.payload = QuantityBox("mass", preferences, tr("Payload at the tool"))
         self.payload.setObjectName("payload")
         self.payload.set_range(0.0, 1e4)
@@ -89,7 +90,7 @@ class ForcesPage(InspectPage):
         self.directions.activated.connect(lambda _: self.refresh())
         self.legend, self.largest, self.message = wrapped_label("muted"), wrapped_label(), wrapped_label()
         self.hanging = wrapped_label("muted")
-        self.hanging.setText(HANGING)
+        self.hanging.setText(tr(HANGING))
         self.hanging.hide()
         self.largest.setObjectName("largest_force")
         self.ratings = Ratings(session, preferences)
@@ -106,10 +107,9 @@ class ForcesPage(InspectPage):
 
     # --- construction ----------------------------------------------------------------------------------------------
 
-    def _row(self, names: tuple[str, ...], kind: Kind, first: int, what: str) -> NumberRow:
+    def _row(self, names: tuple[str, ...], kind: Kind, first: int, text: str) -> NumberRow:
         row = NumberRow("wrench", names, (kind,) * 3, self._preferences, tr("Wrench"))
-        text = tr("Set the {what} at the tool", what=what)
-        row.edited.connect(lambda _: self._take(text, self.load.with_wrench(first, row.values), what))
+        row.edited.connect(lambda _: self._take(text, self.load.with_wrench(first, row.values), kind))
         row.finished.connect(self._session.end_stroke)
         row.refused.connect(self._complain)
         return row
@@ -118,7 +118,7 @@ class ForcesPage(InspectPage):
         set_role(self.message, level="warning")
         self.message.hide()
         meaning = wrapped_label("muted")
-        meaning.setText(_MEANING)
+        meaning.setText(tr(_MEANING))
         carried = QHBoxLayout()
         carried.addWidget(QLabel(tr("Payload")))
         carried.addWidget(self.payload, 1)
@@ -128,7 +128,7 @@ class ForcesPage(InspectPage):
             group_of(_titled(tr("Largest force along")), stretched=True), group_of(self.directions, stretched=True), 8
         )
         note = wrapped_label("muted")
-        note.setText(_FORMULA_NOTE)
+        note.setText(tr(_FORMULA_NOTE))
         inside = QWidget()
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
@@ -180,16 +180,15 @@ class ForcesPage(InspectPage):
         self._take(tr("Set the payload"), replace(self.load, payload=mass), "payload")
 
     def _take_weight(self, on: bool) -> None:
-        self._take(
-            tr("{value} the arm's own weight", value=tr("Count") if on else tr("Leave out")),
-            replace(self.load, own_weight=on),
-        )
+        text = tr("Count the arm's own weight") if on else tr("Leave out the arm's own weight")
+        self._take(text, replace(self.load, own_weight=on))
 
     def _take_axes(self) -> None:
         """The same wrench, seen in other axes."""
         axes = next(axes for axes in get_args(WrenchAxes) if axes == self.axes.currentData())
         if axes != self.load.axes:
-            self._take(tr("Write the wrench {axes}", axes=AXES[axes]), self.load.in_axes(axes, self._R))
+            text = tr("Write the wrench in base axes") if axes == "base" else tr("Write the wrench in tool axes")
+            self._take(text, self.load.in_axes(axes, self._R))
 
     def _clear(self) -> None:
         if np.any(self.load.wrench) or self.load.payload:
@@ -264,8 +263,9 @@ class ForcesPage(InspectPage):
             pure_moment = not np.any(asked[:3])
             in_base = replace(self.load, wrench=asked).in_base(self._R)
             found = largest_force(robot, q, in_base, ratings(robot), holding=held)
-        besides = besides_text(self.load.payload, self._weighs(), self._preferences)
-        self.largest.setText(largest_text(robot, found, pure_moment, self._preferences, besides))
+        held_besides = self.load.payload, self._weighs(), self._preferences
+        texts = besides_text(*held_besides), counted_text(*held_besides)
+        self.largest.setText(largest_text(robot, found, pure_moment, self._preferences, *texts))
 
     # --- the scene -------------------------------------------------------------------------------------------------
 
@@ -300,10 +300,7 @@ class ForcesPage(InspectPage):
         robot = self._session.robot
         units = (display(torque_kind(robot, i), self._preferences).suffix.strip() for i in range(robot.dof))
         values = zip(robot.joint_names, self._torques.tolist(), units, strict=True)
-        return [
-            NamedValue(tr("tau_{i} ({name})", i=i, name=name), value, unit)
-            for i, (name, value, unit) in enumerate(values, start=1)
-        ]
+        return [NamedValue(f"tau_{i} ({name})", value, unit) for i, (name, value, unit) in enumerate(values, start=1)]
 
 
 def _typical_force(robot: Robot) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QSize, Qt, Signal
@@ -21,11 +22,16 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import button
 from rvsim.language import tr, tr_later
 from rvsim.robot import Datum, Robot
-from rvsim.robot.rating_edits import rating_origin, with_guessed_ratings, with_max_torque
+from rvsim.robot.rating_edits import RatingOrigin, rating_origin, with_guessed_ratings, with_max_torque
 
 _TOP = QModelIndex()
 _JOINT, _RATING, _ORIGIN = range(3)
-_HEADS = ("joint", "rating", "origin")
+_HEADS = (tr_later("joint"), tr_later("rating"), tr_later("origin"))
+_ORIGINS: Mapping[RatingOrigin, str] = {
+    "source": tr_later("source"),
+    "assumed": tr_later("assumed"),
+    "yours": tr_later("yours"),
+}
 _TIPS = (
     tr_later("The joint"),
     tr_later("What its drive can hold"),
@@ -58,7 +64,7 @@ class RatingModel(QAbstractTableModel):
             self._room = width - _DOT_ROOM
 
     def _names(self) -> list[str]:
-        names = [f"J{number} {joint.name}" for number, joint in enumerate(self._robot.joints, start=1)]
+        names = [f"J{number} {tr(joint.name)}" for number, joint in enumerate(self._robot.joints, start=1)]
         fit = max(map(text_metrics().horizontalAdvance, names)) <= self._room
         return names if fit else [f"J{number}" for number in range(1, self._robot.dof + 1)]
 
@@ -111,7 +117,7 @@ class RatingModel(QAbstractTableModel):
         if joint.max_torque is None:
             return "" if whole else "\u2013"
         if index.column() == _ORIGIN:
-            return rating_origin(joint.max_torque)
+            return tr(_ORIGINS[rating_origin(joint.max_torque)])
         shown = self._shown(index.row())
         value = joint.max_torque.value * shown.factor
         if whole:
@@ -126,18 +132,22 @@ class RatingModel(QAbstractTableModel):
         return units.pop().strip() if len(units) == 1 else ""
 
     def _tip(self, joint: int) -> str:
-        name, rating, shown = self._robot.joints[joint].name, self._robot.joints[joint].max_torque, self._shown(joint)
-        if rating is None:
-            return tr("The drive of “{name}”: no rating is known. Double-click or type to enter one.", name=name)
-        said = {"source": tr("From: "), "assumed": tr("Assumed: "), "yours": tr("Yours: ")}[rating_origin(rating)]
-        number = f"{rating.value * shown.factor:.12g}{shown.suffix}"
-        return tr(
-            "The drive of “{name}”: {number}. {said}{value}.",
-            name=name,
-            number=number,
-            said=said,
-            value=rating.source or tr("its robot file"),
+        name, rating, shown = (
+            tr(self._robot.joints[joint].name),
+            self._robot.joints[joint].max_torque,
+            self._shown(joint),
         )
+        if rating is None:
+            return tr("The drive of “{joint}”: no rating is known. Double-click or type to enter one.", joint=name)
+        number = f"{rating.value * shown.factor:.12g}{shown.suffix}"
+        sentence = tr("The drive of “{joint}”: {rating}.", joint=name, rating=number)
+        source = rating.source or tr("its robot file")
+        said = {
+            "source": tr("From: {source}.", source=source),
+            "assumed": tr("Assumed: {source}.", source=source),
+            "yours": tr("Yours: {source}.", source=source),
+        }
+        return f"{sentence} {said[rating_origin(rating)]}"
 
     def _shown(self, joint: int) -> Display:
         return display(torque_kind(self._robot, joint), self._preferences)
@@ -163,9 +173,10 @@ class RatingModel(QAbstractTableModel):
             return None
         match role:
             case Qt.ItemDataRole.DisplayRole:
-                return f"{_HEADS[section]} {self._common_unit()}".strip() if section == _RATING else _HEADS[section]
+                head = tr(_HEADS[section])
+                return f"{head} {self._common_unit()}".strip() if section == _RATING else head
             case Qt.ItemDataRole.ToolTipRole:
-                return _TIPS[section]
+                return tr(_TIPS[section])
             case Qt.ItemDataRole.TextAlignmentRole:
                 return LEFT if section == _JOINT else RIGHT
         return None
@@ -174,7 +185,8 @@ class RatingModel(QAbstractTableModel):
 def _origin_size() -> QSize:
     """As wide as its longest word, and a gap to the number before it."""
     metrics = text_metrics()
-    return QSize(metrics.horizontalAdvance("assumed") + _GAP, metrics.height())
+    widest = max(metrics.horizontalAdvance(tr(origin)) for origin in _ORIGINS.values())
+    return QSize(widest + _GAP, metrics.height())
 
 
 def _font(rating: Datum | None) -> QFont | None:
@@ -215,7 +227,7 @@ class Ratings(QWidget):
         self.model.show_robot(robot)
         rated = any(joint.max_torque for joint in robot.joints)
         self.guess.setHidden(rated)
-        self.note.setText(_HOW if rated else f"{_UNKNOWN} {_HOW}")
+        self.note.setText(tr(_HOW) if rated else f"{tr(_UNKNOWN)} {tr(_HOW)}")
 
     def settle(self) -> None:
         """As high as the rows are now; what was refused is past."""
@@ -230,7 +242,7 @@ class Ratings(QWidget):
         except RobotDefinitionError as problem:
             self._complain(_sentence(problem.what))
             return
-        self._use(robot, tr("Edit the torque rating of J{joint} of {title}", joint=joint + 1, title=robot.title))
+        self._use(robot, tr("Edit the torque rating of J{joint} of {robot}", joint=joint + 1, robot=robot.title))
 
     def _complain(self, sentence: str) -> None:
         self.message.setText(sentence)
@@ -238,7 +250,7 @@ class Ratings(QWidget):
 
     def _guess(self) -> None:
         robot = with_guessed_ratings(own_copy(self._session.robot))
-        self._use(robot, tr("Give {title} torque ratings", title=robot.title))
+        self._use(robot, tr("Give {robot} torque ratings", robot=robot.title))
 
     def _use(self, robot: Robot, text: str) -> None:
         self._session.edit(text, self._session.experiment.with_robot(robot))

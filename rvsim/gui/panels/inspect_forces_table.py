@@ -29,8 +29,8 @@ from rvsim.robot import Robot
 
 _TOP = QModelIndex()
 _JOINT, _PUSHED, _HELD, _TOTAL, _BAR = range(5)
-_HEADS = ("joint", "from F", "weight", "τ", tr_later("of its rating"))
-_SHORT = ("joint", "JᵀF", "g(q)", "τ", "rating")
+_HEADS = (tr_later("joint"), tr_later("from F"), tr_later("weight"), "τ", tr_later("of its rating"))
+_SHORT = (tr_later("joint"), "JᵀF", "g(q)", "τ", tr_later("rating"))
 _TIPS = (
     tr_later("The joint"),
     tr_later("JᵀF: what the wrench takes"),
@@ -70,7 +70,8 @@ class TorqueModel(QAbstractTableModel):
 
     def _heads(self) -> tuple[str, ...]:
         """In words where there is room."""
-        return _HEADS if text_metrics().horizontalAdvance(_HEADS[_HELD]) <= self._room() else _SHORT
+        fits = text_metrics().horizontalAdvance(tr(_HEADS[_HELD])) <= self._room()
+        return tuple(map(tr, _HEADS if fits else _SHORT))
 
     def _choose_decimals(self) -> None:
         """As many as fit beside each other."""
@@ -141,7 +142,8 @@ class TorqueModel(QAbstractTableModel):
     @property
     def title(self) -> str:
         """What the table is, with the unit that all joints share; else it stands at the numbers."""
-        return ", ".join([tr("Joint torques"), *([self._common_unit()] if self._common_unit() else [])])
+        unit = self._common_unit()
+        return tr("Joint torques, {unit}", unit=unit) if unit else tr("Joint torques")
 
     def _common_unit(self) -> str:
         """The unit that all joints share, or nothing."""
@@ -155,7 +157,7 @@ class TorqueModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.DisplayRole:
             return self._heads()[section]
         if role == Qt.ItemDataRole.ToolTipRole:
-            return _TIPS[section]
+            return tr(_TIPS[section])
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return LEFT if section == _JOINT else RIGHT
         return None

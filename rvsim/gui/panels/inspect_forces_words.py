@@ -12,7 +12,7 @@ from rvsim.dynamics import LargestForce
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_quantity, moment_kind, torque_kind
 from rvsim.lab.worked import Equation
-from rvsim.language import tr, tr_later
+from rvsim.language import listed, tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.rating_edits import RatingOrigin, rating_origin
@@ -25,10 +25,27 @@ AXES: Mapping[str, str] = {"base": tr_later("in base axes"), "tool": tr_later("i
 HANGING = tr_later(
     "The payload pulls down at the tool; to hold it the tool pushes up with m g, which is added to F in τ = Jᵀ F below."
 )
-_ORIGINS: Mapping[RatingOrigin, str] = {
-    "source": "",
-    "assumed": tr_later(", an assumed rating"),
-    "yours": tr_later(", your rating"),
+# What is said of a limit, by the origin of the rating: that it is reached already, with and without what is held
+# besides, and the force that reaches it.
+_AT_LIMIT: Mapping[RatingOrigin, str] = {
+    "source": tr_later("None: {joint} is at its {limit} already."),
+    "assumed": tr_later("None: {joint} is at its {limit} already, an assumed rating."),
+    "yours": tr_later("None: {joint} is at its {limit} already, your rating."),
+}
+_AT_LIMIT_WITH: Mapping[RatingOrigin, str] = {
+    "source": tr_later("None: {joint} is at its {limit} already with {besides}."),
+    "assumed": tr_later("None: {joint} is at its {limit} already with {besides}, an assumed rating."),
+    "yours": tr_later("None: {joint} is at its {limit} already with {besides}, your rating."),
+}
+_REACHES: Mapping[RatingOrigin, str] = {
+    "source": tr_later("{force}: then {joint} reaches its {limit}."),
+    "assumed": tr_later("{force}: then {joint} reaches its {limit}, an assumed rating."),
+    "yours": tr_later("{force}: then {joint} reaches its {limit}, your rating."),
+}
+_SHARES: Mapping[RatingOrigin, str] = {
+    "source": tr_later("{joint}: {torque}, {share} of {rating} ({source})."),
+    "assumed": tr_later("{joint}: {torque}, {share} of {rating} (assumed: {source})."),
+    "yours": tr_later("{joint}: {torque}, {share} of {rating} (yours, {source})."),
 }
 _DECIMALS = 2
 _UNIT_VECTORS = dict(zip("xyz", np.eye(3), strict=True))
@@ -86,17 +103,30 @@ def direction_vector(name: str, wrench: FloatArray) -> FloatArray | None:
 
 def besides_text(payload: float, own_weight: bool, preferences: Preferences) -> str:
     """What the drives hold while the tool pushes, "" for nothing else."""
-    held = [tr("the payload of {format_quantity}", format_quantity=format_quantity(payload, "mass", preferences))] * (
-        payload > 0.0
-    )
-    held += [tr("the arm's own weight")] * own_weight
-    return " and ".join(held)
+    mass = format_quantity(payload, "mass", preferences)
+    held = [tr("the payload of {mass}", mass=mass)] * (payload > 0.0)
+    return listed([*held, *[tr("the arm's own weight")] * own_weight])
+
+
+def counted_text(payload: float, own_weight: bool, preferences: Preferences) -> str:
+    """That the same is counted in, as a sentence."""
+    mass = format_quantity(payload, "mass", preferences)
+    if payload > 0.0 and own_weight:
+        return tr("The payload of {mass} and the arm's own weight counted in.", mass=mass)
+    if payload > 0.0:
+        return tr("The payload of {mass} counted in.", mass=mass)
+    return tr("The arm's own weight counted in.") if own_weight else ""
 
 
 def largest_text(
-    robot: Robot, found: LargestForce | None, pure_moment: bool, preferences: Preferences, besides: str = ""
+    robot: Robot,
+    found: LargestForce | None,
+    pure_moment: bool,
+    preferences: Preferences,
+    besides: str = "",
+    counted: str = "",
 ) -> str:
-    """The answer to "how strongly can it push that way?", while it holds what stands in `besides`."""
+    """The answer to "how strongly can it push that way?", while it holds `besides`, or as a sentence `counted`."""
     if found is None:
         return tr("There is no wrench above: enter one, or choose a direction.")
     if found.joint is None:
@@ -108,38 +138,29 @@ def largest_text(
     rating = joint.max_torque
     assert rating is not None, "only a rated joint limits"
     limit = format_quantity(rating.value, torque_kind(robot, found.joint), preferences)
-    name = f"J{found.joint + 1} {joint.name}"
-    assumed = _ORIGINS[rating_origin(rating)]
+    name, origin = f"J{found.joint + 1} {tr(joint.name)}", rating_origin(rating)
     if found.force == 0.0:
-        with_it = tr(" with {besides}", besides=besides) if besides else ""
-        return tr(
-            "None: {name} is at its {limit} already{with_it}{assumed}.",
-            name=name,
-            limit=limit,
-            with_it=with_it,
-            assumed=assumed,
-        )
-    amount = format_quantity(found.force, moment_kind(robot) if pure_moment else "force", preferences)
-    counted = tr(" {upper}{besides} counted in.", upper=besides[0].upper(), besides=besides[1:]) if besides else ""
-    return tr(
-        "{amount}: then {name} reaches its {limit}{assumed}.{counted}",
-        amount=amount,
-        name=name,
-        limit=limit,
-        assumed=assumed,
-        counted=counted,
-    )
+        if besides:
+            return tr(_AT_LIMIT_WITH[origin], joint=name, limit=limit, besides=besides)
+        return tr(_AT_LIMIT[origin], joint=name, limit=limit)
+    force = format_quantity(found.force, moment_kind(robot) if pure_moment else "force", preferences)
+    return f"{tr(_REACHES[origin], force=force, joint=name, limit=limit)} {counted}".rstrip()
 
 
 def rating_text(row: TorqueRow, robot: Robot, joint: int, preferences: Preferences) -> str:
     """A row in a sentence."""
     kind = torque_kind(robot, joint)
-    total = f"J{joint + 1} {row.name}: {format_quantity(row.total, kind, preferences)}"
-    if math.isnan(row.rating):
-        return tr("{total}. No rating is known.", total=total)
-    origin = {"assumed": "assumed: ", "yours": "yours, "}.get(row.origin or "", "")
-    rating = format_quantity(row.rating, kind, preferences)
-    return f"{total}, {share_text(row)} of {rating} ({origin}{row.rating_source or 'robot file'})."
+    name, torque = f"J{joint + 1} {tr(row.name)}", format_quantity(row.total, kind, preferences)
+    if math.isnan(row.rating) or row.origin is None:
+        return tr("{joint}: {torque}. No rating is known.", joint=name, torque=torque)
+    return tr(
+        _SHARES[row.origin],
+        joint=name,
+        torque=torque,
+        share=share_text(row),
+        rating=format_quantity(row.rating, kind, preferences),
+        source=row.rating_source or tr("robot file"),
+    )
 
 
 def share_text(row: TorqueRow) -> str:

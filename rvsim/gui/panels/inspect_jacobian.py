@@ -19,6 +19,7 @@ from rvsim.gui.panels.inspect_jacobian_words import (
     column_title,
     entry_units,
     meaning,
+    plain_units_line,
     shown_values,
     speed_text,
     table_columns,
@@ -143,7 +144,7 @@ class JacobianPage(InspectPage):
         if whole:
             self.equations.show_equations(whole_equations(robot, q, self.kind, self._J, self._preferences))
         if not lit:
-            self.note.setText(_HINT)
+            self.note.setText(tr(_HINT))
             self.draw(())
             return
         self.column.setText(column_title(robot, joint))
@@ -158,7 +159,7 @@ class JacobianPage(InspectPage):
         robot, part = self._session.robot, self.parts.currentData()
         rows = ", ".join(row.translate(_PLAIN) for row in KINDS[self.kind].names[_ROWS[part]])
         title = KINDS[self.kind].title.lower()
-        units = units_line(robot, self._preferences)
+        units = plain_units_line(robot, self._preferences)
         return f"{_MARKS[name]}{robot.title}: Jacobian, {title}, rows {rows}; {units}\n{text}"
 
 
@@ -168,12 +169,9 @@ def rank_line(J: FloatArray, sign: str) -> str:
         return ""
     most = min(J.shape)
     rank = int((np.linalg.svd(J, compute_uv=False) > _RANK_ABOVE).sum())
-    verdict = "full" if rank == most else tr("{most} is the most: a direction is lost here", most=most)
+    values = {"sign": sign, "rows": J.shape[0], "columns": J.shape[1], "rank": rank}
+    if rank == most:
+        return tr("Rank of {sign} ({rows}×{columns}): {rank}, full.", **values)
     return tr(
-        "Rank of {sign} ({shape}×{shape2}): {rank}, {verdict}.",
-        sign=sign,
-        shape=J.shape[0],
-        shape2=J.shape[1],
-        rank=rank,
-        verdict=verdict,
+        "Rank of {sign} ({rows}×{columns}): {rank}, {most} is the most: a direction is lost here.", most=most, **values
     )

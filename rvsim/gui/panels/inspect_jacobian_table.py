@@ -91,7 +91,13 @@ class JacobianModel(QAbstractTableModel):
             return RIGHT
         if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleDescriptionRole):
             number = f"{self.values[row, column]:.9g}".replace("-", "\u2212")
-            return f"{self._rows[row].name} by {self._columns[column].title}: {number} {self._units[row][column]}"
+            return tr(
+                "{row} by {joint}: {number} {unit}",
+                row=self._rows[row].name,
+                joint=self._columns[column].title,
+                number=number,
+                unit=self._units[row][column],
+            )
         return None
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
@@ -160,6 +166,7 @@ class JacobianTable(QTableView):
         self.setObjectName("jacobian_table")
         self.setAccessibleName(tr("Jacobian"))
         self.setModel(model)
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.jacobian = model
         self.setShowGrid(False)
         self.setSelectionMode(QTableView.SelectionMode.NoSelection)

@@ -43,7 +43,7 @@ KINDS: dict[Rows, JacobianKind] = {
     ),
     "rpy": JacobianKind(
         tr_later("RPY rates"),
-        ("ẋ", "ẏ", "ż", "roll′", "pitch′", "yaw′"),
+        ("ẋ", "ẏ", "ż", tr_later("roll′"), tr_later("pitch′"), tr_later("yaw′")),
         tr_later("Analytic: how fast position, roll, pitch and yaw change."),
     ),
     "zyz": JacobianKind(
@@ -66,7 +66,7 @@ _LOCKED = {
 
 def meaning(kind: Rows, J: FloatArray) -> str:
     """What these rows are, and why some of them are missing."""
-    return _LOCKED[kind] if np.isnan(J).any() else KINDS[kind].meaning
+    return tr(_LOCKED[kind] if np.isnan(J).any() else KINDS[kind].meaning)
 
 
 def length_factor(robot: Robot, preferences: Preferences) -> tuple[float, str, int]:
@@ -83,14 +83,14 @@ def table_rows(kind: Rows, robot: Robot, preferences: Preferences) -> tuple[Row,
     ] * 3
     places = [decimals] * 3 + [_MOST_DECIMALS] * 3
     return tuple(
-        Row(name, f"{name}: {text}", count, block)
+        Row(tr(name), f"{tr(name)}: {text}", count, block)
         for name, text, count, block in zip(KINDS[kind].names, words, places, (0, 0, 0, 1, 1, 1), strict=True)
     )
 
 
 def table_columns(robot: Robot) -> tuple[Column, ...]:
     """One a joint."""
-    return tuple(Column(f"J{i}", f"J{i} {joint.name}", joint.color) for i, joint in enumerate(robot.joints, 1))
+    return tuple(Column(f"J{i}", f"J{i} {tr(joint.name)}", joint.color) for i, joint in enumerate(robot.joints, 1))
 
 
 def shown_values(J: FloatArray, robot: Robot, preferences: Preferences) -> FloatArray:
@@ -112,27 +112,34 @@ def entry_units(robot: Robot, preferences: Preferences) -> list[list[str]]:
 
 def units_line(robot: Robot, preferences: Preferences) -> str:
     """The units in a line below the table."""
-    unit = length_factor(robot, preferences)[1]
-    kinds = (
-        [tr("{unit} per rad in the upper rows, rad per rad in the lower ones", unit=unit)]
-        if robot.is_revolute.any()
-        else []
-    )
-    if not robot.is_revolute.all():
-        kinds.append(tr("sliding joints: {unit} per {unit}", unit=unit))
-    return f"{'; '.join(kinds)}.".capitalize() if not robot.is_revolute.any() else f"{'; '.join(kinds)}."
+    return tr(_units_template(robot), unit=length_factor(robot, preferences)[1])
+
+
+def plain_units_line(robot: Robot, preferences: Preferences) -> str:
+    """The same in English, for what is copied."""
+    return _units_template(robot).format(unit=length_factor(robot, preferences)[1])
+
+
+def _units_template(robot: Robot) -> str:
+    if robot.is_revolute.all():
+        return tr_later("{unit} per rad in the upper rows, rad per rad in the lower ones.")
+    if robot.is_revolute.any():
+        return tr_later(
+            "{unit} per rad in the upper rows, rad per rad in the lower ones; sliding joints: {unit} per {unit}."
+        )
+    return tr_later("Sliding joints: {unit} per {unit}.")
 
 
 def check_line(difference: float, rows: Rows) -> str:
     """How far the formulas are from differences of the forward kinematics [m, rad]."""
     if np.isnan(difference):
         return ""
-    what = tr("the angles of the forward kinematics") if rows in _LOCKED else tr("the forward kinematics")
-    return tr(
-        "Checked by differences of {what}: largest difference {format_error}.",
-        what=what,
-        format_error=format_error(difference),
-    )
+    error = format_error(difference)
+    if rows in _LOCKED:
+        return tr(
+            "Checked by differences of the angles of the forward kinematics: largest difference {error}.", error=error
+        )
+    return tr("Checked by differences of the forward kinematics: largest difference {error}.", error=error)
 
 
 def format_error(value: float) -> str:
@@ -186,30 +193,24 @@ def whole_equations(
 
 def column_title(robot: Robot, joint: int) -> str:
     """Above the identity."""
-    name = robot.joint_names[joint]
-    return (
-        tr("Column J{joint}", joint=joint + 1)
-        if name == f"J{joint + 1}"
-        else tr("Column J{joint}, {name}", joint=joint + 1, name=name)
-    )
+    name, number = robot.joint_names[joint], joint + 1
+    if name == f"J{number}":
+        return tr("Column J{number}", number=number)
+    return tr("Column J{number}, {joint}", number=number, joint=tr(name))
 
 
 def column_note(robot: Robot, joint: int, kind: Rows, preferences: Preferences) -> str:
     """What the letters are."""
     frame, unit = frame_of_joint(robot, joint), length_factor(robot, preferences)[1]
-    axes = "tool" if kind == "tool" else "base"
     if not robot.joints[joint].revolute:
         return tr(
-            "z{sub}: the way of the sliding joint. It moves the tool along, and does not turn it.", sub=_sub(frame)
+            "{z}: the way of the sliding joint. It moves the tool along, and does not turn it.", z=f"z{_sub(frame)}"
         )
-    rates = tr(" B⁻¹ turns ω into the rates of the angles.") if kind in ("rpy", "zyz") else ""
-    return tr(
-        "z{sub}: the joint's axis; o{sub}: a point on it; p: the tool. Lengths in {unit}, {axes} axes.{rates}",
-        sub=_sub(frame),
-        unit=unit,
-        axes=axes,
-        rates=rates,
-    )
+    letters = {"z": f"z{_sub(frame)}", "o": f"o{_sub(frame)}", "unit": unit}
+    if kind == "tool":
+        return tr("{z}: the joint's axis; {o}: a point on it; p: the tool. Lengths in {unit}, tool axes.", **letters)
+    note = tr("{z}: the joint's axis; {o}: a point on it; p: the tool. Lengths in {unit}, base axes.", **letters)
+    return f"{note} {tr('B⁻¹ turns ω into the rates of the angles.')}" if kind in ("rpy", "zyz") else note
 
 
 def speed_text(robot: Robot, q: FloatArray, joint: int, preferences: Preferences) -> str:

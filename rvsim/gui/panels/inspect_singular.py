@@ -61,7 +61,7 @@ _THRESHOLD_TIP = tr_later(
     "the arm: of all poses of a six-axis arm some one in eight is below 0.01."
 )
 _LEFT, _RIGHT = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight
-_PARTS = {"linear": "moving (v)", "angular": "turning (ω)"}
+_PARTS = {"linear": tr_later("moving (v)"), "angular": tr_later("turning (ω)")}
 _NO_FAMILY = tr_later("This arm has no singularity of its task: J keeps its rank everywhere.")
 _PLACE_ONLY = tr_later("Of its pose this arm has none: J keeps its rank everywhere. Its place alone can be singular:")
 _UNKNOWN = tr_later("No family is known for the shape of this arm; the numbers above hold all the same.")
@@ -92,7 +92,7 @@ class SingularPage(InspectPage):
         set_role(self.lost, level="error")
         self.threshold = QuantityBox("number", self._preferences, tr("Close below this σ min / σ max"))
         self.threshold.setObjectName("singular_threshold")
-        self.threshold.setToolTip(_THRESHOLD_TIP)
+        self.threshold.setToolTip(tr(_THRESHOLD_TIP))
         self.threshold.set_range(0.0, 1.0)
         self.threshold.set_quantity(_THRESHOLD)
         self.threshold.quantity_changed.connect(lambda _: self._refresh_if_seen())
@@ -152,9 +152,9 @@ class SingularPage(InspectPage):
             set_role(head, role="muted")
             grid.addWidget(head, 0, column, _RIGHT)
         for row, ((title, tip), cells) in enumerate(zip(MEASURES, self.cells, strict=True), start=1):
-            name = QLabel(title)
+            name = QLabel(tr(title))
             for column, label in enumerate((name, *cells)):
-                label.setToolTip(tip)
+                label.setToolTip(tr(tip))
                 grid.addWidget(label, row, column, _RIGHT if column else _LEFT)
             cells[0].setObjectName(f"singular_measure_{row}")
         return grid
@@ -162,7 +162,7 @@ class SingularPage(InspectPage):
     def _threshold_row(self) -> QHBoxLayout:
         row, label = QHBoxLayout(), wrapped_label("muted")
         label.setText(tr("Close below σ min / σ max ="))
-        label.setToolTip(_THRESHOLD_TIP)
+        label.setToolTip(tr(_THRESHOLD_TIP))
         self.threshold.setMaximumWidth(90)
         row.addWidget(label, 1)
         row.addWidget(self.threshold)
@@ -213,8 +213,8 @@ class SingularPage(InspectPage):
         rows = len(task_rows(robot))
         own, other = (TASK_TITLES[rows], PLACE) if rows == 6 else (TASK_TITLES[rows], ALL_ROWS)
         for head, (text, tip) in zip(self.heads, (own, other), strict=True):
-            head.setText(text)
-            head.setToolTip(tip)
+            head.setText(tr(text))
+            head.setToolTip(tr(tip))
         self.bars_note.setText(bars_sentence(robot, rows))
         self.families.show_families(singular_families(robot), _families_note(robot))
         if self.block is not None:
@@ -229,7 +229,7 @@ class SingularPage(InspectPage):
 
     def _show_verdict(self, found: Singularity) -> None:
         light = light_of(found, self.threshold.quantity)
-        names = ", ".join(family.name for family in found.families or found.position_families)
+        names = tr(", ").join(family.short_title for family in found.families or found.position_families)
         self.light.show_light(light, names)
         lost = lost_sentence(_lost(found), _judged(found), found.robot, self._preferences)
         for label, text in ((self.lost, lost), (self.reason, verdict_sentence(found))):
@@ -264,7 +264,7 @@ class SingularPage(InspectPage):
         if q is None:
             session.warn(problem)
             return
-        self._go(q, tr("Go to the {title}", title=family.title))
+        self._go(q, tr("Go to the {singularity}", singularity=family.title))
 
     def _go(self, q: FloatArray, text: str) -> None:
         self._session.move_to(q, text)
@@ -291,8 +291,8 @@ def _families_note(robot: Robot) -> str:
     if any(family.part == "pose" for family in families):
         return ""
     if families:
-        return _PLACE_ONLY
-    return _NO_FAMILY if families_known(robot) else _UNKNOWN
+        return tr(_PLACE_ONLY)
+    return tr(_NO_FAMILY if families_known(robot) else _UNKNOWN)
 
 
 def _block_for(robot: Robot, typesetter: Typesetter) -> ArmBlock | None:

@@ -63,8 +63,7 @@ class SourceBlock(ArmBlock):
             tr("What source 000 says"),
             tr(
                 "It looks at the tip's place alone: Ĵ, (26) and (27), of joints 1 to 4, in its decimetres. Its θ₁ "
-                "turns "
-                "the other way round; all other entries are right. Below, its three minors, (28), worked out."
+                "turns the other way round; all other entries are right. Below, its three minors, (28), worked out."
             ),
         )
         self._robot: Robot | None = None
@@ -76,9 +75,8 @@ class SourceBlock(ArmBlock):
         self.note.setText(
             tr(
                 "All vanish where sin θ₃ = 0 and sin θ₄ = 0, its (29) and (30): right. They vanish at r = 0 too, the "
-                "tip "
-                "on the base axis: it forgets that. The poses that its procedure "
-                "finds, with θ₄ as the joint has it, 90° less than there:"
+                "tip on the base axis: it forgets that. The poses that its procedure finds, with θ₄ as the joint has "
+                "it, 90° less than there:"
             )
         )
         self.list = QVBoxLayout()
@@ -114,7 +112,7 @@ class SourceBlock(ArmBlock):
         """Joints 1 and 5 stay as they are now."""
         q = np.array(barrier.q)
         q[[0, 4]] = self._q[[0, 4]]
-        self.go.emit(q, tr("Go to {title}", title=barrier.title))
+        self.go.emit(q, tr("Go to {pose}", pose=tr(barrier.title)))
 
 
 class BarrierRow(QWidget):
@@ -126,12 +124,12 @@ class BarrierRow(QWidget):
         super().__init__()
         printed = f"{barrier.printed}  " if barrier.printed else ""
         self.verdict = wrapped_label()
-        self.verdict.setText(barrier.verdict)
+        self.verdict.setText(tr(barrier.verdict))
         self.verdict.setObjectName(f"singular_barrier_verdict_{number}")
         set_role(self.verdict, level="error" if barrier.singular else "")
         self.go = button(
             f"singular_barrier_{number}",
-            f"{printed}{barrier.title}",
+            f"{printed}{tr(barrier.title)}",
             tr("Go to this pose"),
             lambda: self.asked.emit(barrier),
         )
@@ -150,8 +148,7 @@ class WristBlock(ArmBlock):
             tr("Arm and wrist apart"),
             tr(
                 "Seen at the wrist centre, where axes 4, 5 and 6 meet, the wrist moves nothing: J has a block of "
-                "zeros, "
-                "and its determinant is a product (source 004, §4.2.1)."
+                "zeros, and its determinant is a product (source 004, §4.2.1)."
             ),
         )
         self.values = _Values(SPLIT_FORMULAS, "singular_split", typesetter)
@@ -175,8 +172,7 @@ class PlanarBlock(ArmBlock):
             tr("Figure 4.1 of source 004"),
             tr(
                 "Stretched out, the planar arm stands at the boundary of its reach: its tip moves only square to the "
-                "arm. "
-                "The velocity ellipse shows how this comes about."
+                "arm. The velocity ellipse shows how this comes about."
             ),
         )
         self.stretch = button(

@@ -13,12 +13,12 @@ from rvsim.gui.theme import set_role
 from rvsim.gui.widgets import ElidedLabel, button
 from rvsim.kinematics import SingularFamily
 from rvsim.lab.worked import Equation
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
 _LEVELS = {"active": "error", "near": "warning", "": ""}
-_SYMBOLS = {"active": "✖ active", "near": "▲ near", "": ""}
+_SYMBOLS = {"active": tr_later("✖ active"), "near": tr_later("▲ near"), "": ""}
 
 
 class FamilyRow(QWidget):
@@ -29,10 +29,9 @@ class FamilyRow(QWidget):
     def __init__(self, family: SingularFamily, typesetter: Typesetter) -> None:
         super().__init__()
         self.family = family
-        part = tr(", place only") if family.part == "position" else ""
         slug = family.name.replace(" ", "_")
         self.name, self.state, self.value = ElidedLabel(), QLabel(), ElidedLabel()
-        self.name.setText(f"{family.name.capitalize()}  ({family.kind}{part})")
+        self.name.setText(_head(family))
         self.name.setToolTip(family.sentence)
         self.state.setObjectName(f"singular_state_{slug}")
         self.value.setObjectName(f"singular_value_{slug}")
@@ -71,7 +70,7 @@ class FamilyRow(QWidget):
     def show_pose(self, q: FloatArray, active: bool, robot: Robot, preferences: Preferences) -> None:
         """Show how far q (n,) is from the family."""
         state = state_text(float(self.family.measure(q)), active)
-        self.state.setText(_SYMBOLS[state])
+        self.state.setText(tr(_SYMBOLS[state]))
         set_role(self.state, level=_LEVELS[state])
         self.value.setText(value_text(self.family, q, robot, preferences))
 
@@ -79,6 +78,12 @@ class FamilyRow(QWidget):
         """Say why one cannot go there; "" takes it back."""
         self.problem.setText(text)
         self.problem.setVisible(bool(text))
+
+
+def _head(family: SingularFamily) -> str:
+    if family.part == "position":
+        return tr("{family}  ({kind}, place only)", family=family.heading, kind=family.kind_title)
+    return tr("{family}  ({kind})", family=family.heading, kind=family.kind_title)
 
 
 def _equations(family: SingularFamily) -> tuple[Equation, ...]:

@@ -9,7 +9,6 @@ import numpy as np
 
 from rvsim.gui.panels.inspect_singular_words import ellipsoid_scale
 from rvsim.kinematics import LostMotion, Singularity, ellipsoid, forward_kinematics, pose_and_jacobian
-from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.ellipsoids import ellipsoid_items
@@ -32,7 +31,7 @@ def lost_items(found: Singularity, motions: tuple[LostMotion, ...], palette: Sce
     return tuple(
         item
         for number, motion in enumerate(motions)
-        for item in lost_motion_items(tr("lost{number}", number=number), tip, motion, size, palette)
+        for item in lost_motion_items(f"lost{number}", tip, motion, size, palette)
     )
 
 
@@ -52,7 +51,7 @@ def _one(robot: Robot, J: FloatArray, tip: FloatArray, part: str, kind: str, pal
     factor, longest, _ = ellipsoid_scale(robot, part, kind)
     radii = np.minimum(factor * shape.radii, longest if kind == "force" else np.inf)
     color = palette.desired if kind == "velocity" else palette.unreached
-    return ellipsoid_items(tr("ellipsoid.{kind}", kind=kind), tip, shape.axes, radii, color, palette)
+    return ellipsoid_items(f"ellipsoid.{kind}", tip, shape.axes, radii, color, palette)
 
 
 def ellipse_row_items(robot: Robot, q: FloatArray, palette: ScenePalette) -> tuple[Item, ...]:
@@ -61,11 +60,11 @@ def ellipse_row_items(robot: Robot, q: FloatArray, palette: ScenePalette) -> tup
     bends = bends[(robot.limits[1, 0] - 1e-9 <= bends) & (bends <= robot.limits[1, 1] + 1e-9)]
     poses = np.stack([np.full(bends.shape, q[0]), bends], axis=-1)
     T, J = pose_and_jacobian(robot, poses)
-    ghosts = [Ghost(tr("bend{number}", number=number), "", pose, True) for number, pose in enumerate(poses)]
+    ghosts = [Ghost(f"bend{number}", "", pose, True) for number, pose in enumerate(poses)]
     ellipses = (
         item
         for number, (tip, each) in enumerate(zip(T[:, :3, 3], J, strict=True))
-        for item in _row_ellipse(robot, each, tip, palette, tr("ellipsoid.bend{number}", number=number))
+        for item in _row_ellipse(robot, each, tip, palette, f"ellipsoid.bend{number}")
     )
     return (*ghost_items(robot, ghosts, palette), *ellipses)
 

@@ -41,7 +41,8 @@ class LightLabel(QWidget):
     def show_light(self, light: Light, detail: str) -> None:
         """Switch to this light; `detail` follows its word."""
         self.symbol.setText(light.symbol)
-        self.word.setText(f"{light.word}: {detail}" if detail else light.word)
+        word = tr(light.word)
+        self.word.setText(tr("{light}: {families}", light=word, families=detail) if detail else word)
         set_role(self.symbol, level=light.level)
         set_role(self.word, level=light.level)
 
@@ -55,6 +56,7 @@ class SigmaBars(PaintedLines):
         self._threshold = 0.0
         self._level = "good"
         self.setObjectName("singular_bars")
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.setAccessibleName(tr("Singular values"))
         self.setToolTip(
             tr(
@@ -125,6 +127,7 @@ class NumberGrid(PaintedLines):
         super().__init__()
         self._rows: tuple[tuple[str, ...], ...] = ()
         self._heads: tuple[str, ...] = ()
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.setAccessibleName(title)
 
     def show_numbers(self, rows: Sequence[Sequence[str]], heads: Sequence[str]) -> None:

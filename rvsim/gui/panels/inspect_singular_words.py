@@ -10,7 +10,7 @@ import numpy as np
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, format_quantity, joint_kind, length_kind
 from rvsim.kinematics import LostMotion, Measures, SingularFamily, Singularity, SingularPose
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, listed, tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -41,21 +41,48 @@ TASK_TITLES = {
     2: ("x, y", tr_later("The rows of J that this arm's task asks for: moving in the plane.")),
 }
 MEASURES: tuple[tuple[str, str], ...] = (
-    ("σ min", tr_later("The smallest singular value of J: how fast the tool moves in its worst direction for joint "
-                       "speeds of "
-     "length 1. Metres and radians are mixed in it: compare poses of one arm with it, not arms.")),
-    ("σ min / σ max", tr_later("One over the condition: 0 at a singularity, 1 where all directions are alike. The "
-                               "light looks "
-     "at it, because it does not grow with the arm.")),
-    (tr_later("Condition"), tr_later("σ max / σ min: how unlike the best and the worst direction are, and how much "
-                                     "small errors of the "
-     "tool grow in the joints.")),
-    (tr_later("Manipulability"), tr_later("The product of all σ, √det(J Jᵀ) or √det(Jᵀ J), after Yoshikawa: the "
-                                          "volume of the velocity "
-     "ellipsoid, but for a factor.")),
-    (tr_later("Rank"), tr_later("How many directions the tool can move in at once: singular values above 1e-6, of "
-                                "those there could be.")),
-)  # fmt: skip
+    (
+        "σ min",
+        tr_later(
+            "The smallest singular value of J: how fast the tool moves in its worst direction for joint speeds of "
+            "length 1. Metres and radians are mixed in it: compare poses of one arm with it, not arms."
+        ),
+    ),
+    (
+        "σ min / σ max",
+        tr_later(
+            "One over the condition: 0 at a singularity, 1 where all directions are alike. The light looks at it, "
+            "because it does not grow with the arm."
+        ),
+    ),
+    (
+        tr_later("Condition"),
+        tr_later(
+            "σ max / σ min: how unlike the best and the worst direction are, and how much small errors of the tool "
+            "grow in the joints."
+        ),
+    ),
+    (
+        tr_later("Manipulability"),
+        tr_later(
+            "The product of all σ, √det(J Jᵀ) or √det(Jᵀ J), after Yoshikawa: the volume of the velocity ellipsoid, "
+            "but for a factor."
+        ),
+    ),
+    (
+        tr_later("Rank"),
+        tr_later(
+            "How many directions the tool can move in at once: singular values above 1e-6, of those there could be."
+        ),
+    ),
+)
+# What σ is counted in: whether turning the tool counts too, whether all joints turn.
+_PER_JOINT = {
+    (True, True): tr_later("σ in {length} and rad together per rad of the joints."),
+    (True, False): tr_later("σ in {length} and rad together per rad or length of the joints."),
+    (False, True): tr_later("σ in {length} per rad of the joints."),
+    (False, False): tr_later("σ in {length} per rad or length of the joints."),
+}
 
 
 def measure_texts(measures: Measures) -> tuple[str, ...]:
@@ -65,7 +92,7 @@ def measure_texts(measures: Measures) -> tuple[str, ...]:
         small_number(measures.ratio),
         _condition(measures.condition),
         small_number(measures.manipulability),
-        f"{measures.rank} of {measures.full_rank}",
+        tr("{rank} of {full_rank}", rank=measures.rank, full_rank=measures.full_rank),
     )
 
 
@@ -84,15 +111,10 @@ def small_number(value: float) -> str:
 
 def bars_sentence(robot: Robot, rows: int) -> str:
     """The scale of the bars and the unit of what they show."""
-    length = "m" if robot.length_unit == "millimetre" else "units"
-    tool = tr("{length} and rad together", length=length) if rows in (4, 6) else length
-    joint = "rad" if robot.is_revolute.all() else tr("rad or length")
-    return tr(
-        "σ in {tool} per {joint} of the joints. Logarithmic bars, from σ max down to a ten thousandth of it; "
-        "dashed: the threshold.",
-        tool=tool,
-        joint=joint,
-    )
+    length = "m" if robot.length_unit == "millimetre" else tr("units")
+    template = _PER_JOINT[rows in (4, 6), bool(robot.is_revolute.all())]
+    bars = tr("Logarithmic bars, from σ max down to a ten thousandth of it; dashed: the threshold.")
+    return f"{tr(template, length=length)} {bars}"
 
 
 def light_of(found: Singularity, threshold: float) -> Light:
@@ -107,18 +129,15 @@ def light_of(found: Singularity, threshold: float) -> Light:
 
 def verdict_sentence(found: Singularity) -> str:
     """The active families in words, or "" where there is none."""
-    sentences = [f"{family.name.capitalize()} ({family.kind}): {family.sentence}" for family in found.families]
-    sentences += [
-        tr(
-            "{capitalize} ({kind}): {sentence} Turning the tool is as free as ever.",
-            capitalize=family.name.capitalize(),
-            kind=family.kind,
-            sentence=family.sentence,
-        )
-        for family in found.position_families
-        if not found.families
-    ]
+    sentences = [_family_sentence(family) for family in found.families]
+    if not sentences:
+        free = tr("Turning the tool is as free as ever.")
+        sentences = [f"{_family_sentence(family)} {free}" for family in found.position_families]
     return "\n".join(sentences)
+
+
+def _family_sentence(family: SingularFamily) -> str:
+    return tr("{family} ({kind}): {loss}", family=family.heading, kind=family.kind_title, loss=family.sentence)
 
 
 # --- what is lost ------------------------------------------------------------------------------------------------
@@ -135,11 +154,16 @@ def lost_sentence(motions: tuple[LostMotion, ...], found: Measures, robot: Robot
 def _motion(motion: LostMotion, robot: Robot, preferences: Preferences) -> str:
     way = direction_text(motion.direction)
     if motion.kind == "turn":
-        return tr("Cannot turn about {way}{value}.", way=way, value=tr(" with the tip at rest") if motion.alone else "")
+        if motion.alone:
+            return tr("Cannot turn about {axis} with the tip at rest.", axis=way)
+        return tr("Cannot turn about {axis}.", axis=way)
+    if motion.alone:
+        return tr("Cannot move along {axis} without turning.", axis=way)
     away = float(np.linalg.norm(motion.offset))
+    if away < 1e-4 * robot.size:
+        return tr("Cannot move along {axis}.", axis=way)
     distance = format_quantity(away, length_kind(robot), preferences)
-    line = "" if away < 1e-4 * robot.size else tr(" on the dashed line, {distance} beside the tip", distance=distance)
-    return tr("Cannot move along {way}{value}.", way=way, value=tr(" without turning") if motion.alone else line)
+    return tr("Cannot move along {axis} on the dashed line, {distance} beside the tip.", axis=way, distance=distance)
 
 
 def direction_text(direction: FloatArray) -> str:
@@ -147,7 +171,7 @@ def direction_text(direction: FloatArray) -> str:
     axis = int(np.argmax(np.abs(direction)))
     if abs(direction[axis]) > _ALIGNED:
         return "xyz"[axis]
-    return f"({', '.join(format_number(float(value), 2) for value in direction)})"
+    return left_to_right(f"({', '.join(format_number(float(value), 2) for value in direction)})")
 
 
 # --- families ----------------------------------------------------------------------------------------------------
@@ -165,7 +189,7 @@ def value_text(family: SingularFamily, q: FloatArray, robot: Robot, preferences:
         format_quantity(float(value), kind, preferences) if kind != "number" else small_number(float(value))
         for value, kind in zip(family.values(q), kinds, strict=True)
     ]
-    return tr("now {shown}", shown=" and ".join(shown))
+    return tr("now {values}", values=listed([left_to_right(text) for text in shown]))
 
 
 def refusal(robot: Robot, way: SingularPose, preferences: Preferences) -> str:
@@ -180,14 +204,14 @@ def refusal(robot: Robot, way: SingularPose, preferences: Preferences) -> str:
         )
         parts.append(
             tr(
-                "{joint_names} would need {needs}, but has {low} to {high}",
-                joint_names=robot.joint_names[i],
+                "{joint} would need {needs}, but has {low} to {high}",
+                joint=tr(robot.joint_names[i]),
                 needs=needs,
                 low=low,
                 high=high,
             )
         )
-    return tr("Outside the limits: {parts}.", parts="; ".join(parts))
+    return tr("Outside the limits: {joints}.", joints=tr("; ").join(parts))
 
 
 # --- ellipsoids --------------------------------------------------------------------------------------------------
@@ -203,7 +227,7 @@ class Scale(NamedTuple):
 
 def ellipsoid_scale(robot: Robot, part: str, kind: str) -> Scale:
     """The same for all poses of an arm, so that an ellipsoid grows and shrinks as it should."""
-    size, length = robot.size, "m" if robot.length_unit == "millimetre" else "unit"
+    size, length = robot.size, "m" if robot.length_unit == "millimetre" else tr("unit")
     factors = {
         ("linear", "velocity"): (0.4, f"{length}/s"),
         ("angular", "velocity"): (0.12 * size, "rad/s"),
@@ -224,25 +248,20 @@ def scale_sentence(robot: Robot, part: str, kinds: tuple[str, ...], preferences:
     """What the drawn ellipsoids mean, and their scale."""
     lines = []
     turning = bool(robot.is_revolute.all())
-    together = {
-        "velocity": tr("joint speeds of norm 1{value}", value=" rad/s" if turning else ""),
-        "force": tr("joint torques of norm 1{value}", value=" N m" if turning else ""),
-    }
     for kind in kinds:
         factor, longest, unit = ellipsoid_scale(robot, part, kind)
         drawn, cut = (_drawn(robot, value, preferences) for value in (factor, longest))
-        end = tr(", cut at {cut}", cut=cut) if kind == "force" else ""
-        lines.append(
-            tr(
-                "{capitalize} for {together}: 1 {unit} is drawn as {drawn}{end}.",
-                capitalize=kind.capitalize(),
-                together=together[kind],
-                unit=unit,
-                drawn=drawn,
-                end=end,
-            )
-        )
+        lines.append(tr(_DRAWN_AS[kind, turning], unit=unit, drawn=drawn, cut=cut))
     return "\n".join(lines)
+
+
+# By the kind of ellipsoid, and whether all joints turn.
+_DRAWN_AS = {
+    ("velocity", True): tr_later("Velocity for joint speeds of norm 1 rad/s: 1 {unit} is drawn as {drawn}."),
+    ("velocity", False): tr_later("Velocity for joint speeds of norm 1: 1 {unit} is drawn as {drawn}."),
+    ("force", True): tr_later("Force for joint torques of norm 1 N m: 1 {unit} is drawn as {drawn}, cut at {cut}."),
+    ("force", False): tr_later("Force for joint torques of norm 1: 1 {unit} is drawn as {drawn}, cut at {cut}."),
+}
 
 
 def _drawn(robot: Robot, value: float, preferences: Preferences) -> str:

@@ -20,8 +20,10 @@ from rvsim.gui.panels.inspect_source_words import (
     TOPIC_TITLES,
     Sheets,
     drawn_sentence,
+    full_heading,
     heading,
     nothing_known,
+    pose_text,
     sheets,
     shown_as,
     verdict,
@@ -34,16 +36,16 @@ from rvsim.gui.widgets import button, column_of, combo, scrolled
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.sources import Comparison, Erratum, Topic, errata, topics
 from rvsim.lab.worked import Equation
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.spatial import rotation_error_angle
 
 _SEEN_ROWS, _FEW_ROWS = 6, 4  # of the list, before it scrolls; where the page is low
 _LOW = 560  # [px]
-_LIST_LOOK = tr_later("""
+_LIST_LOOK = """
 QListWidget { border: 1px solid palette(mid); border-radius: 5px; background: palette(base); }
 QListWidget::item { padding: 2px 4px; }
-""")
+"""
 _ALL = ""
 _POSE_TIP = tr_later("Go to the pose at which this shows, as in the text; undo brings the present one back")
 _THERE_TIP = tr_later("The arm is at the pose of the text already")
@@ -127,7 +129,7 @@ class SourcePage(InspectPage):
             self.draw(())
             self.detail.say_drawn("")
             return
-        title = f"{entry.source} {entry.where}"
+        title = f"{entry.source} {tr(entry.where)}"
         self.draw(printed_tool_items(T, tool, title, robot.size, self._stage.palette))
         self.detail.say_drawn(drawn_sentence(distance, turned, shown_as(robot, self._preferences)))
 
@@ -145,9 +147,9 @@ class SourcePage(InspectPage):
         with QSignalBlocker(self.topics):
             kept = self.topics.currentData()
             self.topics.clear()
-            self.topics.addItem(tr("All {count} errata", count=len(self._entries)), _ALL)
+            self.topics.addItem(trn("{n} erratum", "All {n} errata", len(self._entries)), _ALL)
             for topic in topics(robot):
-                self.topics.addItem(TOPIC_TITLES[topic], topic)
+                self.topics.addItem(tr(TOPIC_TITLES[topic]), topic)
             self.topics.setCurrentIndex(max(self.topics.findData(kept), 0))
         for widget in (self.topics, self.list):
             widget.setVisible(bool(self._entries))
@@ -173,13 +175,13 @@ class SourcePage(InspectPage):
 
     def _add_group(self, topic: Topic, *, with_head: bool) -> None:
         if with_head:
-            head = QListWidgetItem(TOPIC_TITLES[topic])
+            head = QListWidgetItem(tr(TOPIC_TITLES[topic]))
             head.setFlags(Qt.ItemFlag.NoItemFlags)
             self.list.addItem(head)
         for entry in (entry for entry in self._entries if entry.topic == topic):
-            item = QListWidgetItem(f"{entry.where}   {entry.title}")
+            item = QListWidgetItem(f"{tr(entry.where)}   {tr(entry.title)}")
             item.setData(Qt.ItemDataRole.UserRole, entry)
-            item.setToolTip(f"{heading(entry)}: {entry.title}")
+            item.setToolTip(full_heading(entry))
             self.list.addItem(item)
 
     def _choose_again(self, kept: Erratum | None) -> None:
@@ -218,7 +220,7 @@ class ErratumView(QWidget):
             label.setObjectName(f"source_{part}")
         self.grids = tuple(Grid(f"source_grid_{index}") for index in range(3))
         self.titles = tuple(_small("") for _ in self.grids)
-        self.to_pose = button("source_pose", tr("Pose of the text"), _POSE_TIP, self._go)
+        self.to_pose = button("source_pose", tr("Pose of the text"), tr(_POSE_TIP), self._go)
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -246,7 +248,7 @@ class ErratumView(QWidget):
             self._show_formulas(entry)
         there = bool(np.allclose(self._session.q, entry.pose, atol=1e-9))
         self.to_pose.setEnabled(not there)
-        self.to_pose.setToolTip(_THERE_TIP if there else _POSE_TIP)
+        self.to_pose.setToolTip(tr(_THERE_TIP if there else _POSE_TIP))
         self.here.setText(tr("At the pose of the text") if there else tr("At this pose"))
         self.to_pose.setVisible(comparison is not None)
         self.here.setVisible(comparison is not None)
@@ -270,7 +272,7 @@ class ErratumView(QWidget):
         title.setVisible(bool(name))
         _set_text(title, name)
         if seen:
-            grid.show_sheet(f"{what}: {name or 'numbers'}", lambda fewer: with_fewer(fewer).sheets[index][1])
+            grid.show_sheet(f"{what}: {name or tr('numbers')}", lambda fewer: with_fewer(fewer).sheets[index][1])
 
     def say_drawn(self, text: str) -> None:
         """What is drawn in the scene."""
@@ -279,8 +281,8 @@ class ErratumView(QWidget):
 
     def _show_formulas(self, entry: Erratum) -> None:
         self._entry = entry
-        self.heading.setText(f"{heading(entry)}: {entry.title}")
-        self.why.setText(entry.why)
+        self.heading.setText(full_heading(entry))
+        self.why.setText(tr(entry.why))
         self.printed.show_equations([Equation(line, "", "", "") for line in entry.printed_latex])
         self.right.show_equations([Equation(line, "", "", "") for line in entry.right_latex])
         for widget in (self.right_head, self.right):
@@ -289,7 +291,7 @@ class ErratumView(QWidget):
     def _show_remark(self) -> None:
         for widget in (*self.grids, *self.titles):
             widget.setVisible(False)
-        self._say(REMARK, "", "")
+        self._say(tr(REMARK), "", "")
 
     def _say(self, text: str, level: str, units: str) -> None:
         _set_text(self.verdict, text)
@@ -300,7 +302,7 @@ class ErratumView(QWidget):
 
     def _go(self) -> None:
         if self._entry is not None:
-            self._session.move_to(self._entry.pose, tr("Pose of {lower}", lower=heading(self._entry).lower()))
+            self._session.move_to(self._entry.pose, pose_text(self._entry))
 
 
 def _small(text: str) -> QLabel:

@@ -27,6 +27,7 @@ class Grid(QWidget):
     def __init__(self, name: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName(name)
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self._make: MakeSheet | None = None
         self._fewer = -1
         self.sheet: Sheet | None = None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.palette import ScenePalette
 from rvsim.scene.primitives import Dots, Item, Label, Labels, Polyline, Segments, Triads
@@ -26,13 +25,13 @@ def printed_tool_items(
     """
     place, color = T_printed[:3, 3], palette.unreached
     items: list[Item] = [
-        Segments(tr("{key}.cross", key=_KEY), _cross(T_printed, _ARM * size), color, 2.6),
-        Dots(tr("{key}.place", key=_KEY), place[None], color, 9.0),
-        Triads(tr("{key}.frame", key=_KEY), T_printed[None], _TRIAD * size, letters=True, alpha=_PALE),
-        Labels(tr("{key}.label", key=_KEY), (Label(place, title, color, (10.0, 16.0), 12.0),)),
+        Segments(f"{_KEY}.cross", _cross(T_printed, _ARM * size), color, 2.6),
+        Dots(f"{_KEY}.place", place[None], color, 9.0),
+        Triads(f"{_KEY}.frame", T_printed[None], _TRIAD * size, letters=True, alpha=_PALE),
+        Labels(f"{_KEY}.label", (Label(place, title, color, (10.0, 16.0), 12.0),)),
     ]
     if float(np.linalg.norm(place - T_tool[:3, 3])) > 1e-6:
-        items.append(Polyline(tr("{key}.gap", key=_KEY), np.stack([T_tool[:3, 3], place]), color, 2.2, dashed=True))
+        items.append(Polyline(f"{_KEY}.gap", np.stack([T_tool[:3, 3], place]), color, 2.2, dashed=True))
     return tuple(items)
 
 

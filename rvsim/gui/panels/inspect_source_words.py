@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, Kind, display, format_number, format_scientific, length_kind
 from rvsim.lab.sources import Comparison, Erratum, Topic
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, listed, tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -35,10 +35,15 @@ _KINDS: dict[str, Kind] = {
 }
 _NONE = "–"  # in the place of a number that does not exist
 _TINY = 5e-4  # a plain number below this is written with its power of ten
-_SAYS_NOTHING = tr_later(
-    "No formula of the sources about this arm is known to be wrong. The arms with errata are the RV-M1, the RV-1A, the "
-    "UR5e, the RRRP arm and the AL5B."
-)
+# By whether the source's frame is elsewhere, and whether it is turned.
+_DRAWN = {
+    (True, True): tr_later(
+        "The dashed frame in the scene is where the source puts the tool: {away} away and turned by {angle}."
+    ),
+    (True, False): tr_later("The dashed frame in the scene is where the source puts the tool: {away} away."),
+    (False, True): tr_later("The dashed frame in the scene is where the source puts the tool: turned by {angle}."),
+    (False, False): tr_later("The dashed frame in the scene is where the source puts the tool."),
+}
 REMARK = tr_later("A remark: there is no formula to work out.")
 
 
@@ -63,12 +68,26 @@ Shown = Callable[[str], Display]
 
 def nothing_known(robot: Robot) -> str:
     """What the page says of an arm without errata."""
-    return f"{robot.title}: {_SAYS_NOTHING[0].lower()}{_SAYS_NOTHING[1:]}"
+    return tr(
+        "{robot}: no formula of the sources about this arm is known to be wrong. The arms with errata are the RV-M1, "
+        "the RV-1A, the UR5e, the RRRP arm and the AL5B.",
+        robot=robot.title,
+    )
 
 
 def heading(entry: Erratum) -> str:
     """Where it is in which source."""
-    return tr("Source {source}, {where}", source=entry.source, where=entry.where)
+    return tr("Source {source}, {place}", source=entry.source, place=tr(entry.where))
+
+
+def full_heading(entry: Erratum) -> str:
+    """Where it is, and what is wrong."""
+    return tr("{place}: {erratum}", place=heading(entry), erratum=tr(entry.title))
+
+
+def pose_text(entry: Erratum) -> str:
+    """What going to its pose is called."""
+    return tr("Pose of source {source}, {place}", source=entry.source, place=tr(entry.where))
 
 
 def shown_as(robot: Robot, preferences: Preferences, *, fewer: int = 0) -> Shown:
@@ -98,13 +117,13 @@ def _columns(entry: Erratum, comparison: Comparison, shown: Shown) -> Sheets:
     printed, right, gap = (np.atleast_1d(a) for a in (comparison.printed, comparison.right, comparison.difference))
     kinds, wrong = np.atleast_1d(comparison.kinds), np.atleast_1d(comparison.differs)
     names = entry.rows or ("",) * len(right)
-    heads = tuple(_head(name, unit(str(kind), shown)) for name, kind in zip(names, kinds, strict=True))
+    heads = tuple(_head(tr(name), unit(str(kind), shown)) for name, kind in zip(names, kinds, strict=True))
     cells = tuple(
         tuple(cell(float(value), str(kind), shown) for value in row)
         for *row, kind in zip(printed, right, gap, kinds, strict=True)
     )
     marks = np.column_stack([wrong, np.zeros_like(wrong), wrong])
-    return Sheets((("", Sheet(("printed", "ours", tr("off by")), heads, cells, marks)),), "")
+    return Sheets((("", Sheet((tr("printed"), tr("ours"), tr("off by")), heads, cells, marks)),), "")
 
 
 def _head(name: str, unit: str) -> str:
@@ -129,7 +148,7 @@ def _sheet(
         tuple(cell(float(value), str(kind), shown) for value, kind in zip(row, row_kinds, strict=True))
         for row, row_kinds in zip(values, kinds, strict=True)
     )
-    return Sheet(entry.columns, entry.rows, cells, wrong)
+    return Sheet(tuple(map(tr, entry.columns)), tuple(map(tr, entry.rows)), cells, wrong)
 
 
 def cell(value: float, kind: str, shown: Shown) -> str:
@@ -150,27 +169,25 @@ def _unit_line(entry: Erratum, kinds: NDArray[np.str_], shown: Shown) -> str:
         return tr("The last column is in {unit}.", unit=unit("length", shown))
     if "lever" in kinds:
         lever = unit("lever", shown)
-        return (
-            tr("Rows x to z in {lever}, the others without a unit.", lever=lever) if len(kinds) == 6 else f"In {lever}."
-        )
+        if len(kinds) == 6:
+            return tr("Rows x to z in {unit}, the others without a unit.", unit=lever)
+        return tr("In {unit}.", unit=lever)
     return ""
 
 
 def verdict(entry: Erratum, comparison: Comparison, shown: Shown) -> tuple[str, str]:
     """A sentence about the difference, and its level: "error" where there is one, "good" where there is none."""
     if np.isnan(comparison.printed).any():
-        return entry.undefined, "error"
+        return tr(entry.undefined), "error"
     if comparison.agree:
         return tr("At this pose the printed formula happens to be right."), "good"
     if comparison.right.ndim < 2:
         return "", "error"
     wrong = int(comparison.differs.sum())
-    return tr(
-        "{wrong} of {size} entries are wrong; {worst}.",
-        wrong=wrong,
-        size=comparison.right.size,
-        worst=_worst(comparison, shown),
-    ), "error"
+    counted = trn(
+        "{n} of {total} entries is wrong.", "{n} of {total} entries are wrong.", wrong, total=comparison.right.size
+    )
+    return f"{counted} {_worst(comparison, shown)}", "error"
 
 
 def _worst(comparison: Comparison, shown: Shown) -> str:
@@ -179,12 +196,11 @@ def _worst(comparison: Comparison, shown: Shown) -> str:
     for kind in dict.fromkeys(comparison.kinds[comparison.differs].ravel()):
         gaps = np.abs(comparison.difference[comparison.kinds == kind])
         parts.append(f"{cell(float(gaps.max()), str(kind), shown)} {unit(str(kind), shown)}".strip())
-    return tr("the largest difference is {parts}", parts=" and ".join(parts))
+    return tr("The largest difference is {differences}.", differences=listed([left_to_right(part) for part in parts]))
 
 
 def drawn_sentence(distance: float, turned: float, shown: Shown) -> str:
     """How far from the arm's own tool the source puts it [m, rad]."""
-    away = tr("{cell} {unit} away", cell=cell(distance, "length", shown), unit=unit("length", shown))
-    about = tr("turned by {cell}{suffix}", cell=cell(turned, "angle", shown), suffix=shown("angle").suffix)
-    where = " and ".join(part for part, there in ((away, distance > 1e-9), (about, turned > 1e-9)) if there)
-    return tr("The dashed frame in the scene is where the source puts the tool: {where}.", where=where)
+    away = f"{cell(distance, 'length', shown)} {unit('length', shown)}"
+    angle = f"{cell(turned, 'angle', shown)}{shown('angle').suffix}"
+    return tr(_DRAWN[distance > 1e-9, turned > 1e-9], away=away, angle=angle)

@@ -6,7 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QPushButton, QWidget
 
 from rvsim.lab.sources import Topic, errata
-from rvsim.language import tr
+from rvsim.language import tr, trn
 from rvsim.robot import Robot
 
 
@@ -35,6 +35,4 @@ class SourcesButton(QPushButton):
         self._robot = robot
         count = len(errata(robot, self._topic))
         self.setVisible(count > 0)
-        self.setText(
-            tr("What the source says: {count} {value}", count=count, value="erratum" if count == 1 else "errata")
-        )
+        self.setText(trn("What the source says: {n} erratum", "What the source says: {n} errata", count))

@@ -94,9 +94,9 @@ class VelocityPage(InspectPage):
         row = QHBoxLayout()
         row.setSpacing(4)
         for number, (mode, (text, tip)) in enumerate(_MODES.items()):
-            button = QPushButton(text)
+            button = QPushButton(tr(text))
             button.setObjectName(f"velocity_mode_{mode}")
-            button.setToolTip(tip)
+            button.setToolTip(tr(tip))
             button.setCheckable(True)
             button.setChecked(number == 0)
             button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)

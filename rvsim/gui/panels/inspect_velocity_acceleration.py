@@ -34,7 +34,7 @@ class AccelerationSection(QWidget):
         self._frame: Axes = "base"
         self.title = QToolButton()
         self.title.setObjectName("acceleration_title")
-        self.title.setText("▸ Accelerations")
+        self.title.setText(tr("▸ Accelerations"))
         self.title.setCheckable(True)
         self.title.setToolTip(tr("Joint accelerations for a wished acceleration of the tool at these speeds"))
         self.title.toggled.connect(self._open)
@@ -65,7 +65,7 @@ class AccelerationSection(QWidget):
         self._inside.hide()
 
     def _open(self, opened: bool) -> None:
-        self.title.setText(tr("{value} Accelerations", value="▾" if opened else "▸"))
+        self.title.setText(tr("▾ Accelerations") if opened else tr("▸ Accelerations"))
         self._inside.setVisible(opened)
         self._refresh()
 
@@ -103,8 +103,14 @@ class AccelerationSection(QWidget):
             column_vector(part * unit.factor, unit.decimals)
             for part, unit in zip((drift[:3], drift[3:]), shown, strict=True)
         ]
-        units = " and".join(unit.suffix for unit in shown)
-        self.drift_words.setText(tr("What the speeds alone make, in{units}; the joints make up for it.", units=units))
+        linear, angular = (unit.suffix.strip() for unit in shown)
+        self.drift_words.setText(
+            tr(
+                "What the speeds alone make, in {linear} and {angular}; the joints make up for it.",
+                linear=linear,
+                angular=angular,
+            )
+        )
         return (Equation("\\dot{J}\\,\\dot{q}", "", "", "\\quad ".join(halves)),)
 
     def _on_wish(self, index: int, value: float) -> None:

@@ -27,7 +27,7 @@ from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.kinematics import forward_kinematics
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.motion.jog import Jog, JogStep
 from rvsim.motion.jog_course import Axes, JointMotion, ToolMotion
 from rvsim.robot import Robot
@@ -37,7 +37,7 @@ _FRAME_MS = 16
 _LONGEST = 0.1  # [s] that one step may make up for: a window that was busy must not make the arm leap
 _SPEED, _TURN = 0.05, np.radians(20.0)
 _UNIT_SPEED = 0.2  # for arms whose lengths have no unit
-_AXES = ("x", "y", "z", "roll", "pitch", "yaw")
+_AXES = ("x", "y", "z", tr_later("roll"), tr_later("pitch"), tr_later("yaw"))
 _IN_A_ROW = 3
 _KEYS_HELP = tr_later("← → along x, ↑ ↓ along y, Page Up, Page Down along z; with Shift they turn.")
 
@@ -173,7 +173,7 @@ class JogPad(QWidget):
 
     def _lay_out(self) -> None:
         speeds = QHBoxLayout()
-        for text, box in ((tr("Speed"), self.speed), ("turning", self.turn)):
+        for text, box in ((tr("Speed"), self.speed), (tr("turning"), self.turn)):
             label = QLabel(text)
             label.setBuddy(box)
             set_role(label, role="muted")
@@ -184,7 +184,7 @@ class JogPad(QWidget):
             grid.setHorizontalSpacing(4)
             grid.setVerticalSpacing(2)
         for place, name in enumerate(_AXES):
-            self._add_pair(axes, place, name, name, self._key_tip(place))
+            self._add_pair(axes, place, name, tr(name), self._key_tip(place))
         self.keys = wrapped_label("muted")
         self._show_keys(False)
         column = QVBoxLayout(self)
@@ -204,9 +204,9 @@ class JogPad(QWidget):
         grid.addWidget(label, row, column, 1, 2, Qt.AlignmentFlag.AlignHCenter)
         for offset, sign, text, tip in ((0, -1, "\u2212", tips[0]), (1, 1, "+", tips[1])):
             button = QPushButton(text)
-            button.setObjectName(f"jog_{'minus' if sign < 0 else 'plus'}_{name.lower()}")
-            button.setAccessibleName(f"{text}{name}")
-            button.setToolTip(tr("Hold to move {text}{name}{tip}", text=text, name=name, tip=tip))
+            button.setObjectName(f"jog_{'minus' if sign < 0 else 'plus'}_{_slug(what)}")
+            button.setAccessibleName(left_to_right(f"{text}{name}"))
+            button.setToolTip(f"{tr('Hold to move {direction}', direction=f'{text}{name}')} {tip}".rstrip())
             button.setMinimumWidth(30)
             direction = Direction(what, sign)
             button.pressed.connect(lambda d=direction: self.hold(d))
@@ -219,10 +219,7 @@ class JogPad(QWidget):
     def _key_tip(place: int) -> tuple[str, str]:
         """The keys of an axis' two buttons."""
         shift = "Shift+" if place >= _IN_A_ROW else ""
-        minus, plus = (
-            tr(" (key: {shift}{key_names})", shift=shift, key_names=_KEY_NAMES[place % _IN_A_ROW, sign])
-            for sign in (-1, 1)
-        )
+        minus, plus = (tr("(key: {key})", key=f"{shift}{tr(_KEY_NAMES[place % _IN_A_ROW, sign])}") for sign in (-1, 1))
         return minus, plus
 
     # --- showing ---------------------------------------------------------------------------------------------------
@@ -280,7 +277,7 @@ class JogPad(QWidget):
         if isinstance(direction.what, int):
             joint = direction.what
             rate = self.turn.quantity if robot.joints[joint].revolute else self.speed.quantity
-            return JointMotion(joint, sign * rate), tr("Jog {joint_names}", joint_names=robot.joint_names[joint])
+            return JointMotion(joint, sign * rate), tr("Jog {joint}", joint=tr(robot.joint_names[joint]))
         place = _AXES.index(direction.what)
         unit = sign * np.eye(3)[place % _IN_A_ROW]
         axis = "xyz"[place % _IN_A_ROW]
@@ -288,7 +285,7 @@ class JogPad(QWidget):
             name, v, w = tr("moving along {axis}", axis=axis), self.speed.quantity * unit, np.zeros(3)
         else:
             name, v, w = tr("turning about {axis}", axis=axis), np.zeros(3), self.turn.quantity * unit
-        return ToolMotion(v, w, self._axes(), name), tr("Jog {what}", what=direction.what)
+        return ToolMotion(v, w, self._axes(), name), tr("Jog {direction}", direction=tr(direction.what))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """A key holds its direction; Escape stops."""
@@ -352,7 +349,7 @@ class JogPad(QWidget):
 
     def _show_keys(self, on: bool) -> None:
         """Say whether the keys move the arm now."""
-        self.keys.setText(f"{'Keys are on:' if on else 'Click here to use keys:'} {_KEYS_HELP}")
+        self.keys.setText(f"{tr('Keys are on:') if on else tr('Click here to use keys:')} {tr(_KEYS_HELP)}")
         set_role(self.keys, role="" if on else "muted")
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
@@ -365,3 +362,8 @@ class JogPad(QWidget):
         """What cannot be seen does not move the arm."""
         super().hideEvent(event)
         self.release()
+
+
+def _slug(what: str | int) -> str:
+    """What moves, in a button's name for tests: an axis, or a joint."""
+    return what if isinstance(what, str) else f"j{what + 1}"

@@ -54,13 +54,13 @@ class ShareBar(QWidget):
     def __init__(self, preferences: Preferences) -> None:
         super().__init__()
         self._preferences = preferences
-        self._share, self._text = 0.0, ""
+        self._share, self._text, self._short = 0.0, "", ""
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
-    def show_share(self, share: float, text: str, tip: str) -> None:
-        """Show a share 0… of the most; nan: nothing is known."""
+    def show_share(self, share: float, text: str, short: str, tip: str) -> None:
+        """Show a share 0… of the most, nan: nothing is known; the text is the `short` one where room is short."""
         if (share, text) != (self._share, self._text):
-            self._share, self._text = share, text
+            self._share, self._text, self._short = share, text, short
             self.setToolTip(tip)
             self.setAccessibleName(text)
             self.update()
@@ -88,13 +88,14 @@ class ShareBar(QWidget):
         color = QColor(theme.error if over else theme.accent)
         color.setAlphaF(0.45)
         if math.isfinite(self._share):
-            ground.setWidth(ground.width() * min(self._share, 1.0))
+            rest = ground.width() * (1.0 - min(self._share, 1.0))
+            ground.adjust(rest * self.isRightToLeft(), 0.0, -rest * self.isLeftToRight(), 0.0)
             painter.fillRect(ground, QBrush(color, Qt.BrushStyle.BDiagPattern) if over else QBrush(color))
         painter.setPen(self.palette().color(QPalette.ColorRole.Text))
         room = self.rect().adjusted(4, 0, -2, 0)
         metrics, text = self.fontMetrics(), self._text
         if metrics.horizontalAdvance(text) > room.width():  # the tooltip says of what
-            text = metrics.elidedText(text.partition(" of ")[0], Qt.TextElideMode.ElideRight, room.width())
+            text = metrics.elidedText(self._short, Qt.TextElideMode.ElideRight, room.width())
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
 
@@ -133,8 +134,8 @@ class JointRows(QWidget):
     def _add_row(self, index: int, joint: Joint, kind: Kind) -> None:
         mark, name = QLabel(), ElidedLabel()
         mark.setPixmap(dot(joint.color).pixmap(10, 10))
-        name.setText(f"J{index + 1} {joint.name}" if joint.name != f"J{index + 1}" else joint.name)
-        box = QuantityBox(kind, self._preferences, f"{self._rated.sign} of J{index + 1}")
+        name.setText(f"J{index + 1} {tr(joint.name)}" if joint.name != f"J{index + 1}" else joint.name)
+        box = QuantityBox(kind, self._preferences, tr("{rate} of J{number}", rate=self._rated.sign, number=index + 1))
         box.setObjectName(f"{self._rated.prefix}_{index + 1}")
         box.setMinimumWidth(60)
         box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -157,18 +158,27 @@ class JointRows(QWidget):
         for index, value in enumerate(values.tolist()):
             self.boxes[index].set_quantity(value)
             kind = self._rated.kind(self._robot, index)
-            share, text, tip = self._compared(value, self._rated.top(self._robot.joints[index]), kind)
-            self.bars[index].show_share(share, text, tip)
+            self.bars[index].show_share(*self._compared(value, self._rated.top(self._robot.joints[index]), kind))
 
-    def _compared(self, value: float, top: Datum | None, kind: Kind) -> tuple[float, str, str]:
-        """The share of the top value, in a few signs and in full."""
+    def _compared(self, value: float, top: Datum | None, kind: Kind) -> tuple[float, str, str, str]:
+        """The share of the top value: in a few signs, in fewer, and in full."""
         if top is None:
-            return math.nan, tr("no top value known"), tr("No source gives one.")
+            unknown = tr("no top value known")
+            return math.nan, unknown, unknown, tr("No source gives one.")
         shown, share = display(kind, self._preferences), abs(value) / top.value
         percent = f"{100.0 * share:.0f} %" if 100.0 * share < _MOST_SHOWN else f"> {_MOST_SHOWN:.0f} %"
         most = format_number(top.value * shown.factor, 0 if shown.factor > 1.0 else 2)
-        tip = f"{percent} of {most}{shown.suffix}, {'assumed' if top.assumed else 'known'}: {top.source}."
-        return share, f"{percent} of {most}{'*' if top.assumed else ''}", tip
+        whole = {"percent": percent, "most": f"{most}{shown.suffix}", "source": top.source}
+        if top.assumed:
+            tip = tr("{percent} of {most}, assumed: {source}.", **whole)
+        else:
+            tip = tr("{percent} of {most}, known: {source}.", **whole)
+        return (
+            share,
+            tr("{percent} of {most}", percent=percent, most=f"{most}{'*' if top.assumed else ''}"),
+            percent,
+            tip,
+        )
 
     @property
     def assumed(self) -> bool:

@@ -15,7 +15,7 @@ from rvsim.kinematics import (
     singular_families,
     singularity,
 )
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.motion.jog import JogStep
 from rvsim.motion.jog_course import Limit
 from rvsim.robot import Robot
@@ -23,6 +23,13 @@ from rvsim.robot.arrays import FloatArray
 
 _NEAR = 0.25  # of a family's scaled terms
 _PROBE = 1e-4
+# By the side, lower or upper, and whether the joint is beyond it.
+_STOPPED = {
+    (0, False): tr_later("Stopped: the {joint} is at its lower limit, {limit}."),
+    (0, True): tr_later("Stopped: the {joint} is beyond its lower limit, {limit}."),
+    (1, False): tr_later("Stopped: the {joint} is at its upper limit, {limit}."),
+    (1, True): tr_later("Stopped: the {joint} is beyond its upper limit, {limit}."),
+}
 
 
 def stop_text(robot: Robot, step: JogStep, preferences: Preferences) -> str:
@@ -33,27 +40,23 @@ def stop_text(robot: Robot, step: JogStep, preferences: Preferences) -> str:
     if step.cause is None or not families:
         return step.stopped_reason
     family = min(families, key=lambda family: float(family.measure(step.q)))
+    where = _where(robot, family, step.q, preferences)
     lost = _lost_words(robot, family, step.q)
-    there = tr(": there the tool cannot {lost}", lost=lost) if lost else ""
+    if not lost:
+        return tr("Stopped before the {singularity}, {where}.", singularity=family.title, where=where)
     return tr(
-        "Stopped before the {title}, {where}{there}.",
-        title=family.title,
-        where=_where(robot, family, step.q, preferences),
-        there=there,
+        "Stopped before the {singularity}, {where}: there the tool cannot {motions}.",
+        singularity=family.title,
+        where=where,
+        motions=lost,
     )
 
 
 def _limit_text(robot: Robot, limit: Limit, value: float, preferences: Preferences) -> str:
     number = format_quantity(limit.value, joint_kind(robot, limit.joint), preferences)
     beyond = value < limit.value if limit.side == 0 else value > limit.value
-    where = "beyond" if beyond and abs(value - limit.value) > _PROBE else "at"
-    return tr(
-        "Stopped: the {joint_names} is {where} its {side_name} limit, {number}.",
-        joint_names=robot.joint_names[limit.joint],
-        where=where,
-        side_name=limit.side_name,
-        number=number,
-    )
+    template = _STOPPED[limit.side, beyond and abs(value - limit.value) > _PROBE]
+    return tr(template, joint=tr(robot.joint_names[limit.joint]), limit=number)
 
 
 def _where(robot: Robot, family: SingularFamily, q: FloatArray, preferences: Preferences) -> str:
@@ -63,7 +66,8 @@ def _where(robot: Robot, family: SingularFamily, q: FloatArray, preferences: Pre
     if len(joints) != 1:
         return value_text(family, q, robot, preferences)
     joint = int(joints[0])
-    return f"J{joint + 1} = {format_quantity(float(q[joint]), joint_kind(robot, joint), preferences)}"
+    value = format_quantity(float(q[joint]), joint_kind(robot, joint), preferences)
+    return left_to_right(f"J{joint + 1} = {value}")
 
 
 def _lost_words(robot: Robot, family: SingularFamily, q: FloatArray) -> str:
@@ -73,11 +77,11 @@ def _lost_words(robot: Robot, family: SingularFamily, q: FloatArray) -> str:
         return ""
     found = singularity(robot, there)
     measures = found.task if found.task.lost is not None else found.position
-    return " or ".join(map(_motion_words, lost_motions(measures, robot.size)))
+    return tr(" or ").join(map(_motion_words, lost_motions(measures, robot.size)))
 
 
 def _motion_words(motion: LostMotion) -> str:
     way = direction_text(motion.direction)
     if motion.kind == "move":
-        return tr("move along {way}{value}", way=way, value=tr(" without turning") if motion.alone else "")
-    return tr("turn about {way}{value}", way=way, value=tr(" in place") if motion.alone else "")
+        return tr("move along {axis} without turning", axis=way) if motion.alone else tr("move along {axis}", axis=way)
+    return tr("turn about {axis} in place", axis=way) if motion.alone else tr("turn about {axis}", axis=way)

@@ -25,6 +25,7 @@ class TwistBoxes(QWidget):
         self.boxes: list[QuantityBox] = []
         self.notes: list[QLabel] = []
         self._preferences = preferences
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)

@@ -10,11 +10,43 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number
 from rvsim.kinematics import jacobian
 from rvsim.kinematics.rates import JointAccelerations, JointRates, row_scale
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, listed, tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-PARTS = tuple(f"{what} {axis}" for what in (tr_later("moving along"), tr_later("turning about")) for axis in "xyz")
+# The parts of a wish, of which all, a share or next to nothing is lost.
+_MOVING = (
+    tr_later("moving along {axis}"),
+    tr_later("{percent} % of moving along {axis}"),
+    tr_later("a little of moving along {axis}"),
+)
+_TURNING = (
+    tr_later("turning about {axis}"),
+    tr_later("{percent} % of turning about {axis}"),
+    tr_later("a little of turning about {axis}"),
+)
+
+
+class _Sentences(NamedTuple):
+    """What is said of a velocity, or of an acceleration: it can be, it would be too fast, it cannot be."""
+
+    can: str
+    race: str
+    cannot: str
+
+
+_OF_VELOCITY = _Sentences(
+    tr_later("This arm can do that velocity: nothing is lost."),
+    tr_later("This arm could do that velocity here, but its joints would have to race: below each box, what is left."),
+    tr_later("This arm cannot do that velocity here."),
+)
+_OF_ACCELERATION = _Sentences(
+    tr_later("This arm can do that acceleration: nothing is lost."),
+    tr_later(
+        "This arm could do that acceleration here, but its joints would have to race: below each box, what is left."
+    ),
+    tr_later("This arm cannot do that acceleration here."),
+)
 _SHARE = 0.2  # of what is lost: a part of the wish that has less to do with it is not named
 _ALL = 0.95
 _RANK_ABOVE = 1e-6
@@ -37,23 +69,26 @@ def verdict(
 
     This is source 004's test of the range, eq. (4.20), in words. `in_range`: whether the arm could, without damping.
     """
-    what = "velocity" if isinstance(solution, JointRates) else "acceleration"
+    sentences = _OF_VELOCITY if isinstance(solution, JointRates) else _OF_ACCELERATION
     if solution.feasible:
-        return tr("This arm can do that {what}: nothing is lost.", what=what)
+        return tr(sentences.can)
     if in_range:
-        return tr(
-            "This arm could do that {what} here, but its joints would have to race: below each box, what is left.",
-            what=what,
-        )
+        return tr(sentences.race)
     parts = culprits(robot, wished, lost)
     if not parts:
-        return tr("This arm cannot do that {what} here.", what=what)
-    verb = "is" if len(parts) == 1 else "are"
-    return tr(
-        "This arm cannot do that {what} here: {listed} {verb} lost. Below each box: the nearest it can.",
-        what=what,
-        listed=_listed(parts),
-        verb=verb,
+        return tr(sentences.cannot)
+    if sentences is _OF_VELOCITY:
+        return trn(
+            "This arm cannot do that velocity here: {parts} is lost. Below each box: the nearest it can.",
+            "This arm cannot do that velocity here: {parts} are lost. Below each box: the nearest it can.",
+            len(parts),
+            parts=listed(parts),
+        )
+    return trn(
+        "This arm cannot do that acceleration here: {parts} is lost. Below each box: the nearest it can.",
+        "This arm cannot do that acceleration here: {parts} are lost. Below each box: the nearest it can.",
+        len(parts),
+        parts=listed(parts),
     )
 
 
@@ -62,13 +97,17 @@ def culprits(robot: Robot, wished: FloatArray, lost: FloatArray) -> list[str]:
     rows = row_scale(robot.size) ** 2
     weights = wished * lost * rows
     total = float((lost * lost * rows).sum())
-    found = []
-    for index in np.argsort(-weights, kind="stable").tolist():
-        if weights[index] > _SHARE * max(total, 1e-300):
-            share = lost[index] / wished[index]
-            part = f"{100.0 * share:.0f} % of " if share > 0.005 else tr("a little of ")
-            found.append((index, PARTS[index] if share > _ALL else part + PARTS[index]))
-    return [text for _, text in sorted(found)]
+    found = np.flatnonzero(weights > _SHARE * max(total, 1e-300))
+    return [_part(int(index), float(lost[index] / wished[index])) for index in found]
+
+
+def _part(index: int, share: float) -> str:
+    """A share of a part of a wish, which are counted from 0 to 5, in words."""
+    whole, some, little = _MOVING if index < 3 else _TURNING
+    axis = "xyz"[index % 3]
+    if share > _ALL:
+        return tr(whole, axis=axis)
+    return tr(some, percent=f"{100.0 * share:.0f}", axis=axis) if share > 0.005 else tr(little, axis=axis)
 
 
 class RankTest(NamedTuple):
@@ -85,11 +124,11 @@ class RankTest(NamedTuple):
     @property
     def text(self) -> str:
         """As the source prints it."""
-        sign, verdict = ("=", "in") if self.in_range else ("<", tr("not in"))
-        ranks = tr(
-            "rank J = {alone} {sign} rank [J | ζ] = {with_wish}", alone=self.alone, sign=sign, with_wish=self.with_wish
-        )
-        return tr("{ranks}: ζ is {verdict} the range of J (source 004, eq. 4.20).", ranks=ranks, verdict=verdict)
+        sign = "=" if self.in_range else "<"
+        ranks = left_to_right(f"rank J = {self.alone} {sign} rank [J | ζ] = {self.with_wish}")
+        if self.in_range:
+            return tr("{ranks}: ζ is in the range of J (source 004, eq. 4.20).", ranks=ranks)
+        return tr("{ranks}: ζ is not in the range of J (source 004, eq. 4.20).", ranks=ranks)
 
 
 def rank_test(robot: Robot, q: FloatArray, wished: FloatArray) -> RankTest:
@@ -111,11 +150,11 @@ def damping_line(damping: float) -> str:
 def too_fast(robot: Robot, qd: FloatArray) -> str:
     """Which joints would have to be faster than they can."""
     names = [
-        joint.name
+        tr(joint.name)
         for joint, rate in zip(robot.joints, np.abs(qd).tolist(), strict=True)
         if joint.max_speed and rate > joint.max_speed.value * (1.0 + 1e-9)
     ]
-    return tr("Faster than its top speed: {listed}.", listed=_listed(names)) if names else ""
+    return tr("Faster than its top speed: {joints}.", joints=listed(names)) if names else ""
 
 
 def arrow_texts(twist: FloatArray, kinds: tuple[Kind, Kind], preferences: Preferences) -> tuple[str, str]:
@@ -127,7 +166,3 @@ def arrow_texts(twist: FloatArray, kinds: tuple[Kind, Kind], preferences: Prefer
 def _amount(value: float, kind: Kind, preferences: Preferences) -> str:
     shown = display(kind, preferences)
     return f"{format_number(float(value) * shown.factor, shown.decimals)}{shown.suffix}"
-
-
-def _listed(parts: list[str]) -> str:
-    return parts[0] if len(parts) == 1 else tr("{parts} and {parts2}", parts=", ".join(parts[:-1]), parts2=parts[-1])

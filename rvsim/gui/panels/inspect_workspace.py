@@ -56,7 +56,7 @@ from rvsim.gui.stage import Stage
 from rvsim.gui.widgets import button, column_of, combo, scrolled, select, show_whole
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.workspace import SectionMap
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later, trn
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.cloud import cloud_items, section_items
 from rvsim.scene.primitives import Item
@@ -107,8 +107,8 @@ class WorkspacePage(InspectPage):
         self.sections = combo("workspace_section", tr("Which section is shown"), SECTIONS)
         self.limits = combo("workspace_limits", tr("Joint limits"), LIMITS)
         self.poses = combo("workspace_poses", tr("How many poses are sampled"))
-        for number, text in POSES.items():
-            self.poses.addItem(text, number)
+        for number in POSES:
+            self.poses.addItem(trn("{n:,} pose", "{n:,} poses", number), number)
         select(self.poses, 1_000_000)
         for box in (self.colors, self.sections, self.limits):
             box.currentIndexChanged.connect(lambda _: self._refresh_if_seen())
@@ -239,7 +239,7 @@ class WorkspacePage(InspectPage):
         self.query.refresh(held=held, ignore_limits=ignored)
         for widget in (self.copy, self.save_csv, self.save_png):
             widget.setEnabled(survey is not None)
-        self.figure.setText(FIGURES.get(self._session.robot.name, ""))
+        self.figure.setText(tr(FIGURES.get(self._session.robot.name, "")))
         self.figure.setVisible(bool(self.figure.text()))
         if survey is None:
             self._show_nothing()
@@ -272,15 +272,15 @@ class WorkspacePage(InspectPage):
     def _show_pointed(self, u: float, v: float) -> None:
         """Where the pointer is; nan where it has left."""
         if self.section is None or math.isnan(u):
-            self.pointed.setText(_POINT)
+            self.pointed.setText(tr(_POINT))
             return
         x, y, z = (format_number(value * self._length.factor, self._length.decimals) for value in self._at(u, v))
-        self.pointed.setText(f"x {x}, y {y}, z {z}{self._length.suffix}")
+        self.pointed.setText(left_to_right(f"x {x}, y {y}, z {z}{self._length.suffix}"))
 
     def _show_nothing(self) -> None:
         self._shown = ()
         self.pointed.setText("")
-        self.state.setText(EMPTY)
+        self.state.setText(tr(EMPTY))
         self.place.setText("")
         self.draw(())
         if self._plot is not None and self._bar is not None:
@@ -368,12 +368,7 @@ class WorkspacePage(InspectPage):
         return picture
 
     def _save(self, title: str, ending: str, kinds: str, write: Callable[[Path], object]) -> None:
-        start = Path.home() / tr(
-            "{name}-workspace-{currentData}.{ending}",
-            name=self._session.robot.name,
-            currentData=self.sections.currentData(),
-            ending=ending,
-        )
+        start = Path.home() / f"{self._session.robot.name}-workspace-{self.sections.currentData()}.{ending}"
         chosen, _ = QFileDialog.getSaveFileName(self, title, str(start), kinds)
         if not chosen:
             return
@@ -382,7 +377,7 @@ class WorkspacePage(InspectPage):
         except (RvsimError, OSError) as problem:
             self._session.say(tr("Nothing was written. {problem}", problem=problem), "error")
             return
-        self._session.say(tr("Saved {chosen}.", chosen=chosen))
+        self._session.say(tr("Saved {file}.", file=chosen))
 
 
 def _enable(box: QComboBox, choice: str, why_not: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QLinearGradient, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
+from PySide6.QtGui import QColor, QGuiApplication, QLinearGradient, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rvsim.gui.panels.inspect_workspace_words import Values
@@ -67,6 +67,7 @@ class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
         self._preferences = preferences
         self._factor = 1.0
         self.setMouseTracking(True)
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.setObjectName("workspace_map")
         self.setAccessibleName(tr("Section of the workspace"))
         self.setMouseEnabled(x=False, y=False)
@@ -161,6 +162,7 @@ class ScaleBar(QWidget):
         self._preferences = preferences
         self._values: Values | None = None
         self.setObjectName("workspace_scale")
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
 
     def show_values(self, values: Values | None) -> None:
@@ -190,7 +192,9 @@ class ScaleBar(QWidget):
         with QPainter(self) as painter:
             painter.setPen(QColor(theme.muted))
             title = self.fontMetrics().elidedText(values.title, Qt.TextElideMode.ElideRight, self.width())
+            painter.setLayoutDirection(QGuiApplication.layoutDirection())  # of the words, but not of the numbers
             painter.drawText(QRectF(0, 0, self.width(), line), Qt.AlignmentFlag.AlignLeft, title)
+            painter.setLayoutDirection(self.layoutDirection())
             (self._paint_boxes if values.whole else self._paint_band)(painter, band, values, theme.dark)
 
     def _paint_band(self, painter: QPainter, band: QRectF, values: Values, dark: bool) -> None:

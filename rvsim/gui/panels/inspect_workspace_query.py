@@ -24,7 +24,7 @@ from rvsim.gui.target_solution import (
 from rvsim.gui.widgets import button
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.inverse import DEFAULT_ORDER
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -99,7 +99,7 @@ class PointQuery(QWidget):
         if not self._typed:
             self._question = ()
             self.place.show_values(T[:3, 3])
-            self.answer.setText(_ASK)
+            self.answer.setText(tr(_ASK))
             return
         T[:3, 3] = self.place.values
         settings = (shown_units(self._preferences), self._preferences["extra_decimals"])
@@ -112,17 +112,17 @@ class PointQuery(QWidget):
         answer, units = solve(question), shown_units(self._preferences)
         if answer.usable:
             away = _left_over(answer)
-            return _yes(answer) if away < _SAME * question.robot.size else self._no(question, away, _IN_PLANE)
+            return _yes(answer) if away < _SAME * question.robot.size else self._no(question, away, tr(_IN_PLANE))
         nearest = nearest_pose(answer, units)
         if nearest.position_error < _SAME * question.robot.size and question.place_only:
-            return _OTHERWISE
+            return tr(_OTHERWISE)
         return self._no(question, nearest.position_error, immediate_sentence(answer, units))
 
     def _no(self, question: Question, away: float, why: str) -> str:
         if away < _SAME * question.robot.size:
-            return f"No. {why}"
+            return f"{tr('No.')} {why}"
         distance = format_quantity(away, length_kind(question.robot), self._preferences)
-        return tr("No: the tool comes no nearer than {distance}. {why}", distance=distance, why=why)
+        return f"{tr('No: the tool comes no nearer than {distance}.', distance=distance)} {why}"
 
 
 def _left_over(answer: Answer) -> float:
@@ -142,12 +142,30 @@ def _yes(answer: Answer) -> str:
     """In how many ways."""
     if answer.question.solver != CLOSED_FORM:
         return tr("Yes, found by Levenberg and Marquardt's method: this arm has no closed form to count its ways.")
-    count, all_of_them = len(answer.usable), len(answer.branches)
-    ways = "1 branch" if count == 1 else tr("{count} branches", count=count)
-    left = (
-        tr(" within the limits, {all_of_them} beyond them", all_of_them=all_of_them - count)
-        if count < all_of_them
-        else ""
+    count, beyond = len(answer.usable), len(answer.branches) - len(answer.usable)
+    if any(branch.continuum for branch in answer.usable):
+        return _yes_endlessly(count, beyond)
+    if not beyond:
+        return trn("Yes: {n} branch.", "Yes: {n} branches.", count)
+    return trn(
+        "Yes: {n} branch within the limits, {beyond} beyond them.",
+        "Yes: {n} branches within the limits, {beyond} beyond them.",
+        count,
+        beyond=beyond,
     )
-    endless = tr(", each one of infinitely many ways to turn") if any(b.continuum for b in answer.usable) else ""
-    return tr("Yes: {ways}{left}{endless}.", ways=ways, left=left, endless=endless)
+
+
+def _yes_endlessly(count: int, beyond: int) -> str:
+    """The same where a joint may take any value."""
+    if not beyond:
+        return trn(
+            "Yes: {n} branch, each one of infinitely many ways to turn.",
+            "Yes: {n} branches, each one of infinitely many ways to turn.",
+            count,
+        )
+    return trn(
+        "Yes: {n} branch within the limits, {beyond} beyond them, each one of infinitely many ways to turn.",
+        "Yes: {n} branches within the limits, {beyond} beyond them, each one of infinitely many ways to turn.",
+        count,
+        beyond=beyond,
+    )

@@ -11,7 +11,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Display, format_quantity, length_kind
 from rvsim.kinematics.singularity import task_rows
 from rvsim.kinematics.workspace import SectionMap, WorkspaceTask, has_branches, holds_orientation
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
@@ -22,24 +22,37 @@ COLORS = {
     "none": tr_later("No colours"),
 }
 SECTIONS = {"side": tr_later("From the side"), "top": tr_later("From above")}
-POSES = {100_000: "100,000 poses", 1_000_000: "1,000,000 poses", 4_000_000: "4,000,000 poses"}
+POSES = (100_000, 1_000_000, 4_000_000)
 LIMITS = {"within": tr_later("Within limits"), "ignored": tr_later("Ignoring limits")}
 
-_SOURCE = "source 004"
 FIGURES = {
-    "articulated": f"The elbow manipulator's workspace ({_SOURCE}, §2.1.1, its figure 2.6): a ball, hollow where the "
-    "elbow cannot fold further, cut off where the joints stop.",
-    "spherical": f"The spherical manipulator's workspace ({_SOURCE}, §2.1.2, its figure 2.9): a thick shell between "
-    "the shortest and the longest extension.",
-    "scara": f"The SCARA's workspace ({_SOURCE}, §2.1.3, its figure 2.12): the ring of a planar arm, as high as "
-    "the stroke of joint 3.",
-    "cylindrical": f"The cylindrical manipulator's workspace ({_SOURCE}, its figure 2.11): a hollow cylinder.",
-    "cartesian": f"The Cartesian manipulator's workspace ({_SOURCE}, §2.1.4, its figure 2.14): a box.",
-    "planar": f"The planar arm of {_SOURCE}'s figure 4.1 reaches a ring: its rims are the boundary singularities, "
-    "stretched out and folded back.",
+    "articulated": tr_later(
+        "The elbow manipulator's workspace (source 004, §2.1.1, its figure 2.6): a ball, hollow where the elbow cannot "
+        "fold further, cut off where the joints stop."
+    ),
+    "spherical": tr_later(
+        "The spherical manipulator's workspace (source 004, §2.1.2, its figure 2.9): a thick shell between the "
+        "shortest and the longest extension."
+    ),
+    "scara": tr_later(
+        "The SCARA's workspace (source 004, §2.1.3, its figure 2.12): the ring of a planar arm, as high as the stroke "
+        "of joint 3."
+    ),
+    "cylindrical": tr_later(
+        "The cylindrical manipulator's workspace (source 004, its figure 2.11): a hollow cylinder."
+    ),
+    "cartesian": tr_later("The Cartesian manipulator's workspace (source 004, §2.1.4, its figure 2.14): a box."),
+    "planar": tr_later(
+        "The planar arm of source 004's figure 4.1 reaches a ring: its rims are the boundary singularities, stretched "
+        "out and folded back."
+    ),
 }
 _WHOLE = 6  # rows of J
-_TASKS = {(0, 1): "x, y", (0, 1, 2): tr_later("the place"), (0, 1, 2, 5): tr_later("place and yaw")}
+_TASKS = {
+    (0, 1): tr_later("largest manipulability of x, y, SI"),
+    (0, 1, 2): tr_later("largest manipulability of the place, SI"),
+    (0, 1, 2, 5): tr_later("largest manipulability of place and yaw, SI"),
+}
 EMPTY = tr_later("No workspace yet: press Sample, and see where the tool can go.")
 
 
@@ -58,16 +71,17 @@ def values_of(survey: Survey, section: SectionMap, color: str) -> Values:
         return Values(section.branches, _largest(survey, color), tr("branches, the most at each place"), whole=True)
     if color == "none":
         return Values(None, 1.0, "")
-    title = tr("largest manipulability {measure}, SI", measure=_measure(survey.workspace.task.robot))
+    title = _measure(survey.workspace.task.robot)
     return Values(section.manipulability, _largest(survey, "manipulability"), title)
 
 
 def _measure(robot: Robot) -> str:
-    """What Yoshikawa's measure is of this arm's task."""
+    """Yoshikawa's measure of this arm's task."""
     rows = task_rows(robot)
     if len(rows) < _WHOLE:
-        return f"of {_TASKS[rows]}"
-    return "√det(JᵀJ)" if robot.dof < _WHOLE else "√det(JJᵀ)"
+        return tr(_TASKS[rows])
+    formula = "√det(JᵀJ)" if robot.dof < _WHOLE else "√det(JJᵀ)"
+    return tr("largest manipulability {formula}, SI", formula=formula)
 
 
 def cloud_shares(survey: Survey, color: str) -> FloatArray:
@@ -101,9 +115,24 @@ def refusal(robot: Robot, choice: str) -> str:
 def done_sentence(survey: Survey) -> str:
     """What was done, and how long it took."""
     task = survey.workspace.task
-    what = tr("Every cell asked") if task.fixed else tr("{poses:,} poses sampled", poses=task.poses)
-    limits = tr("joint limits ignored") if task.ignore_limits else tr("within the joint limits")
-    return f"{what} in {survey.seconds:.2f} s, {limits}."
+    seconds = f"{survey.seconds:.2f}"
+    if task.fixed and task.ignore_limits:
+        return tr("Every cell asked in {seconds} s, joint limits ignored.", seconds=seconds)
+    if task.fixed:
+        return tr("Every cell asked in {seconds} s, within the joint limits.", seconds=seconds)
+    if task.ignore_limits:
+        return trn(
+            "{n:,} pose sampled in {seconds} s, joint limits ignored.",
+            "{n:,} poses sampled in {seconds} s, joint limits ignored.",
+            task.poses,
+            seconds=seconds,
+        )
+    return trn(
+        "{n:,} pose sampled in {seconds} s, within the joint limits.",
+        "{n:,} poses sampled in {seconds} s, within the joint limits.",
+        task.poses,
+        seconds=seconds,
+    )
 
 
 def section_sentence(survey: Survey, kind: str, preferences: Preferences) -> str:
@@ -114,11 +143,13 @@ def section_sentence(survey: Survey, kind: str, preferences: Preferences) -> str
     rim = tr("The rim is exact.") if section.exact else tr("The rim goes round the cells that were reached.")
     if kind == "top":
         height = format_quantity(float(section.origin[2]), length_kind(robot), preferences)
-        return tr("Level section at the tool's height, z = {height}. {rim}", height=height, rim=rim)
+        place = tr("Level section at the tool's height, z = {height}.", height=height)
+        return f"{place} {rim}"
     if section.projected:
-        return tr("All places, seen along y. {rim}", rim=rim)
+        return f"{tr('All places, seen along y.')} {rim}"
     angle = format_quantity(float(np.arctan2(section.axis_u[1], section.axis_u[0])), "angle", preferences)
-    return tr("Upright section through the base axis, at azimuth {angle}. {rim}", angle=angle, rim=rim)
+    place = tr("Upright section through the base axis, at azimuth {angle}.", angle=angle)
+    return f"{place} {rim}"
 
 
 def axis_titles(section: SectionMap, kind: str) -> tuple[str, str]:
@@ -142,7 +173,7 @@ def map_csv(survey: Survey, kind: str, shown: Display) -> str:
         ",".join((*(f"{value:.9g}" for value in place), f"{value:.9g}", count))
         for place, value, count in zip(places.tolist(), measure.tolist(), counts, strict=True)
     )
-    return "\n".join((tr("x_{unit},y_{unit},z_{unit},manipulability,branches", unit=unit), *rows, ""))
+    return "\n".join((f"x_{unit},y_{unit},z_{unit},manipulability,branches", *rows, ""))
 
 
 def task_of(robot: Robot, q: FloatArray, choices: dict[str, object]) -> WorkspaceTask:
