@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
 from rvsim.errors import did_you_mean
-from rvsim.files.place import Place, Quantity, Unit, Units, shown
-from rvsim.language import tr
+from rvsim.files.place import Place, Quantity, Unit, Units, count_of, either, list_of, shown
+from rvsim.language import tr, tr_later, trn
 
 # What a saved number may differ from the number in memory, as a fraction of it.
 _PRECISION = 1e-15
@@ -34,7 +34,10 @@ class Kind(Protocol):
 
 
 class Key(NamedTuple):
-    """One key of a table: its kind, what it is when absent, and a comment, which also is the hint to who errs."""
+    """One key of a table: its kind, what it is when absent, and a comment, which also is the hint to who errs.
+
+    The comment is in English in the file, whatever language is spoken; as a hint it is translated.
+    """
 
     name: str
     kind: Kind
@@ -58,7 +61,7 @@ class Text:
             place.refuse(shown(value), expected)
         text = value.strip()
         if not self.shortest <= len(text) <= self.longest:
-            place.refuse(tr("a text of {count} characters", count=len(text)), expected)
+            place.refuse(trn("a text of {n} character", "a text of {n} characters", len(text)), expected)
         return text
 
     def write(self, value: str, units: Units) -> str:
@@ -78,7 +81,7 @@ class Choice:
 
     def read(self, value: Any, place: Place) -> str:
         """The word as it stands in the list."""
-        expected = " or ".join(repr(option) for option in self.options)
+        expected = either(self.options)
         if not isinstance(value, str):
             place.refuse(shown(value), expected)
         if value not in self.options:
@@ -162,8 +165,21 @@ class Number:
 
     def _expected(self, place: Place) -> str:
         name = place.units.of(self.quantity).name
-        unit = f" [{name}{self.per}]" if name else ""
-        return tr("a number from {least:.8g} to {most:.8g}{unit}", least=self.least, most=self.most, unit=unit)
+        if not name:
+            return tr("a number from {least:.8g} to {most:.8g}", least=self.least, most=self.most)
+        unit = tr(f"{name}{self.per}")
+        return tr("a number from {least:.8g} to {most:.8g} [{unit}]", least=self.least, most=self.most, unit=unit)
+
+
+# What a number may be per second of.
+_RATES = (
+    tr_later("degrees per second"),
+    tr_later("degrees per second²"),
+    tr_later("millimetres per second"),
+    tr_later("millimetres per second²"),
+    tr_later("units per second"),
+    tr_later("units per second²"),
+)
 
 
 @dataclass(frozen=True)
@@ -175,7 +191,7 @@ class Numbers:
 
     def read(self, value: Any, place: Place) -> tuple[float, ...]:
         """The numbers in SI units."""
-        expected = tr("{count} numbers [{names}]", count=len(self.names), names=", ".join(self.names))
+        expected = trn("{n} number [{names}]", "{n} numbers [{names}]", len(self.names), names=", ".join(self.names))
         if not isinstance(value, list) or len(value) != len(self.names):
             place.refuse(shown(value), expected)
         pairs = zip(self.names, value, strict=True)
@@ -198,9 +214,9 @@ class Items:
     def read(self, value: Any, place: Place) -> tuple[Any, ...]:
         """Each item read."""
         if not isinstance(value, list):
-            place.refuse(shown(value), tr("a list of {one}s", one=self.one))
+            place.refuse(shown(value), list_of(self.one))
         if not self.fewest <= len(value) <= self.most:
-            place.refuse(tr("{count} of them", count=len(value)), f"{self.fewest} to {self.most} {self.one}s")
+            place.refuse(trn("{n} of them", "{n} of them", len(value)), count_of(self.one, self.fewest, self.most))
         return tuple(self.kind.read(item, place.item(f"{self.one} {i}")) for i, item in enumerate(value, 1))
 
     def write(self, value: Any, units: Units) -> str:
@@ -252,18 +268,18 @@ class Table:
         names = [key.name for key in self.keys]
         for name in () if place.newer else table:
             if name not in names:
-                here = place.at(tr("key {name!r}", name=name[:100]))
+                here = place.at(f"key {name[:100]!r}")
                 here.refuse(tr("an unknown key"), tr("one of the known keys"), did_you_mean(name[:100], names))
 
 
 def _read_key(key: Key, table: dict[str, Any], place: Place) -> Any:
     nested = isinstance(key.kind, Table | Items)
     hint = f"{key.name}: {key.comment}." if key.comment else ""
-    here = place.at(key.name if nested else tr("key {name!r}", name=key.name), hint)
+    here = place.at(key.name if nested else f"key {key.name!r}", hint)
     if key.name in table:
         return key.kind.read(table[key.name], here)
     if key.default is REQUIRED:
-        here.refuse("nothing", tr("this {value}, which is required", value="table" if nested else "key"))
+        here.refuse(tr("nothing"), tr("this table, which is required") if nested else tr("this key, which is required"))
     return key.default
 
 
@@ -301,4 +317,4 @@ def _refuse_radians(number: float, place: Place) -> None:
     for degrees in (90.0, 180.0):
         if abs(abs(number) - math.radians(degrees)) < 5e-6:
             right = math.copysign(degrees, number)
-            place.refuse(shown(number), "degrees", tr("That looks like radians: write {right:g}.", right=right))
+            place.refuse(shown(number), tr("degrees"), tr("That looks like radians: write {degrees:g}.", degrees=right))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple, NoReturn
 
 from rvsim.errors import RobotFileError
 from rvsim.files.toml_source import line_of
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.units import (
     degrees_from_radians,
     metres_from_millimetres,
@@ -21,7 +21,7 @@ _LONGEST_SHOWN = 60
 
 
 class Unit(NamedTuple):
-    """A unit of the file: its name, and the way from the file's number to SI and back."""
+    """A unit of the file: its name in English, and the way from the file's number to SI and back."""
 
     name: str
     to_si: Callable[[float], float]
@@ -29,9 +29,9 @@ class Unit(NamedTuple):
 
 
 PLAIN = Unit("", float, float)
-DEGREE = Unit("degrees", radians_from_degrees, degrees_from_radians)
-MILLIMETRE = Unit("millimetres", metres_from_millimetres, millimetres_from_metres)
-ABSTRACT = Unit("units", float, float)
+DEGREE = Unit(tr_later("degrees"), radians_from_degrees, degrees_from_radians)
+MILLIMETRE = Unit(tr_later("millimetres"), metres_from_millimetres, millimetres_from_metres)
+ABSTRACT = Unit(tr_later("units"), float, float)
 LENGTH_UNITS = {"millimetre": MILLIMETRE, "unit": ABSTRACT}
 
 
@@ -64,7 +64,9 @@ _FILE_UNITS = Units()
 class Place:
     """A place in a file: the steps from its top, the units that hold there, a hint for who errs there, and the text.
 
-    `newer`: a younger rvsim wrote it, and keys that are unknown here are passed over.
+    Steps and hint are in English, as the file has them ("joint 3", "key 'alpha'"; "alpha: DH twist about x."): they are
+    translated when somebody reads them. `newer`: a younger rvsim wrote it, and keys that are unknown here are passed
+    over.
     """
 
     path: str
@@ -89,8 +91,70 @@ class Place:
     def refuse(self, found: str, expected: str, suggestion: str = "") -> NoReturn:
         """Raise the `RobotFileError` of this place."""
         line = line_of(self.text, self.steps)
-        where = ", ".join((tr("line {line}", line=line), *self.steps) if line else self.steps) or tr("the file")
-        raise RobotFileError(self.path, where, found, expected, suggestion or self.hint)
+        steps = [*([tr("line {number}", number=line)] if line else []), *map(step_words, self.steps)]
+        where = tr(", ").join(steps) or tr("the file")
+        raise RobotFileError(self.path, where, found, expected, suggestion or hint_words(self.hint))
+
+
+_STEPS = {
+    "key": tr_later("key {which}"),
+    "number": tr_later("number {which}"),
+    "row": tr_later("row {which}"),
+    "joint": tr_later("joint {which}"),
+    "tool": tr_later("tool {which}"),
+    "mass": tr_later("mass {which}"),
+    "servo": tr_later("servo {which}"),
+    "point": tr_later("point {which}"),
+    "capsule": tr_later("capsule {which}"),
+    "box": tr_later("box {which}"),
+    "move": tr_later("move {which}"),
+    "stage": tr_later("stage {which}"),
+    "pose": tr_later("pose {which}"),
+    "experiment": tr_later("experiment {which}"),
+}
+
+
+def step_words(step: str) -> str:
+    """A step for people: "key 'alpha'", "joint 3"; one that is a word of the file alone stays that."""
+    word, _, which = step.partition(" ")
+    return tr(_STEPS[word], which=which) if which and word in _STEPS else step
+
+
+def hint_words(hint: str) -> str:
+    """A hint for people: the key that it begins with, and what that means."""
+    key, colon, meaning = hint.partition(": ")
+    return f"{left_to_right(key)}: {tr(meaning.removesuffix('.'))}." if colon else tr(hint)
+
+
+def either(words: Sequence[str]) -> str:
+    """Words of which one is right: "'a' or 'b'"."""
+    return tr(" or ").join(map(repr, words))
+
+
+# A list, and how many it may hold, by the name of one of them.
+_LISTS = {
+    "joint": (tr_later("a list of joints"), tr_later("{fewest} to {most} joints")),
+    "tool": (tr_later("a list of tools"), tr_later("{fewest} to {most} tools")),
+    "mass": (tr_later("a list of masses"), tr_later("{fewest} to {most} masses")),
+    "servo": (tr_later("a list of servos"), tr_later("{fewest} to {most} servos")),
+    "point": (tr_later("a list of points"), tr_later("{fewest} to {most} points")),
+    "capsule": (tr_later("a list of capsules"), tr_later("{fewest} to {most} capsules")),
+    "box": (tr_later("a list of boxes"), tr_later("{fewest} to {most} boxes")),
+    "move": (tr_later("a list of moves"), tr_later("{fewest} to {most} moves")),
+    "stage": (tr_later("a list of stages"), tr_later("{fewest} to {most} stages")),
+    "pose": (tr_later("a list of poses"), tr_later("{fewest} to {most} poses")),
+    "experiment": (tr_later("a list of experiments"), tr_later("{fewest} to {most} experiments")),
+}
+
+
+def list_of(one: str) -> str:
+    """What is expected where a list stands whose items are called `one`."""
+    return tr(_LISTS[one][0])
+
+
+def count_of(one: str, fewest: int, most: int) -> str:
+    """How many items such a list may have."""
+    return tr(_LISTS[one][1], fewest=fewest, most=most)
 
 
 def shown(value: object) -> str:
@@ -102,10 +166,10 @@ def shown(value: object) -> str:
     if isinstance(value, int | float):
         return _shortened(_number_text(value))
     if isinstance(value, str):
-        return tr("the text {shortened}", shortened=_shortened(repr(value)))
+        return tr("the text {text}", text=_shortened(repr(value)))
     if isinstance(value, list):
         return tr("a list of {count}", count=len(value))
-    return "a table" if isinstance(value, dict) else tr("a date or time")
+    return tr("a table") if isinstance(value, dict) else tr("a date or time")
 
 
 def _number_text(value: float) -> str:

@@ -11,13 +11,14 @@ from rvsim.errors import ProgramFileError, RobotFileError, did_you_mean
 from rvsim.experiment.program import MOVE_KINDS, Move, Program, kind_of
 from rvsim.files.atomic import write_atomically
 from rvsim.files.kinds import Choice, Items, Key, Number, Numbers, Table, Text, number_text
-from rvsim.files.place import Place, Unit, Units, shown
+from rvsim.files.place import Place, Unit, Units, either, shown
 from rvsim.files.toml_source import read_bytes, tables_of, text_of
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.motion.moves import DEFAULT_SPEED, JointMove
 from rvsim.robot import Robot
 
 VERSION = 1
+_A_FILE = tr_later("a program file (.toml)")
 _MOST_MOVES = 2000
 _PREAMBLE = """\
 # A program of rvsim: the moves one after the other. Joints are degrees (millimetres where they slide), places x, y, z
@@ -57,11 +58,14 @@ class _Joints:
         """q (n,) [rad, m]."""
         names = self.robot.joint_names
         if not isinstance(value, list) or len(value) != len(names):
-            found = tr("{count} numbers", count=len(value)) if isinstance(value, list) else shown(value)
-            place.refuse(
-                found,
-                tr("{count} numbers, one for each joint of the {title}", count=len(names), title=self.robot.title),
+            found = trn("{n} number", "{n} numbers", len(value)) if isinstance(value, list) else shown(value)
+            expected = trn(
+                "{n} number, one for each joint of the {robot}",
+                "{n} numbers, one for each joint of the {robot}",
+                len(names),
+                robot=self.robot.title,
             )
+            place.refuse(found, expected)
         return tuple(
             Number("joint", -1e6, 1e6).read(item, place.at(joint.name).with_units(place.units.for_joint(joint.type)))
             for joint, item in zip(self.robot.joints, value, strict=True)
@@ -85,7 +89,11 @@ _SECONDS = Number("plain", 0.0, 86_400.0)
 def _keys(robot: Robot) -> dict[str, tuple[Key, ...]]:
     """The keys of each kind of move."""
     return {
-        "joint": (Key("joints", _Joints(robot), ()), Key("pose", Text(0, 60), "", tr("a remembered pose")), _SPEED),
+        "joint": (
+            Key("joints", _Joints(robot), ()),
+            Key("pose", Text(0, 60), "", tr_later("a remembered pose")),
+            _SPEED,
+        ),
         "line": (Key("to", _POINT), _TOOL, _RPY, _SPEED),
         "arc": (Key("via", _POINT), Key("to", _POINT), _TOOL, _RPY, _SPEED),
         "wait": (Key("seconds", _SECONDS),),
@@ -121,9 +129,9 @@ class _AnyMove:
         names = tuple(MOVE_KINDS)
         kind = value.get("kind") if isinstance(value, dict) else None
         if not isinstance(kind, str) or kind not in names:
-            found = "nothing" if kind is None else shown(kind)
+            found = tr("nothing") if kind is None else shown(kind)
             guess = did_you_mean(kind, names) if isinstance(kind, str) else ""
-            place.at("key 'kind'").refuse(found, " or ".join(repr(name) for name in names), guess)
+            place.at("key 'kind'").refuse(found, either(names), guess)
         move: Move = self.table(kind).read(value, place)
         return move
 
@@ -139,7 +147,7 @@ class _AnyMove:
 def program_text(program: Program, robot: Robot) -> str:
     """The file of a program for an arm."""
     units, any_move = Units().for_robot(robot.length_unit), _AnyMove(robot)
-    lines = [tr("version = {version}", version=VERSION), tr("robot = {write}", write=Text().write(robot.name, units))]
+    lines = [f"version = {VERSION}", f"robot = {Text().write(robot.name, units)}"]
     for move in program:
         present = any_move.table(kind_of(move)).present(move, units)
         lines += ["", "[[move]]", *(f"{key.name} = {key.kind.write(part, inner)}" for key, part, inner in present)]
@@ -176,7 +184,7 @@ def load_program(path: str | Path, robot: Robot) -> Program:
     Raises:
         ProgramFileError: the file cannot be read or makes no program.
     """
-    text: str = _refused(lambda: text_of(read_bytes(Path(path)), path))
+    text: str = _refused(lambda: text_of(read_bytes(Path(path), _A_FILE), path))
     return program_of(text, robot, path)
 
 
@@ -216,5 +224,5 @@ def _refused(read: Callable[[], Any]) -> Any:
     try:
         return read()
     except RobotFileError as problem:
-        expected = problem.expected.replace("robot file", "program file")
-        raise ProgramFileError(problem.path, problem.where, problem.found, expected, problem.suggestion) from None
+        where, found, expected = problem.where, problem.found, problem.expected
+        raise ProgramFileError(problem.path, where, found, expected, problem.suggestion) from None

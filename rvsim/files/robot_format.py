@@ -9,8 +9,8 @@ import numpy as np
 
 from rvsim.errors import RvsimError, did_you_mean
 from rvsim.files.kinds import Choice, Flag, HexColor, Items, Key, Number, Numbers, Table, Text
-from rvsim.files.place import LENGTH_UNITS, Place, shown
-from rvsim.language import tr, tr_later
+from rvsim.files.place import LENGTH_UNITS, Place, shown, step_words
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import BoxShape, CapsuleShape, Datum, Gripper, GripperServo, Joint, LinkMass, Robot, Servo, Shape, Tool
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.robot import NO_TOOL
@@ -39,7 +39,7 @@ def _datum(number: Number) -> Table:
     return Table(
         keys=(
             Key("value", number),
-            Key("assumed", Flag(), False, tr("true where no source gives the number")),
+            Key("assumed", Flag(), False, tr_later("true where no source gives the number")),
             Key("source", Text(longest=500), ""),
         ),
         build=_build_datum,
@@ -50,7 +50,9 @@ def _datum(number: Number) -> Table:
 def _build_datum(values: dict[str, Any], place: Place) -> Datum:
     if not values["assumed"] and not values["source"]:
         place.refuse(
-            tr("a number without origin"), tr('source = "…" or assumed = true'), tr("Say where the number comes from.")
+            tr("a number without origin"),
+            'source = "…"' + tr(" or ") + "assumed = true",
+            tr("Say where the number comes from."),
         )
     return Datum(**values)
 
@@ -73,13 +75,13 @@ JOINT = Table(
         Key("color", HexColor(), "#0072B2"),
         Key(
             "max_speed",
-            _datum(Number("joint", 1e-6, 1e6, tr_later(" per second"))),
+            _datum(Number("joint", 1e-6, 1e6, " per second")),
             None,
             tr_later("[degrees/s, or length/s]"),
         ),
         Key(
             "max_acceleration",
-            _datum(Number("joint", 1e-6, 1e7, tr_later(" per second²"))),
+            _datum(Number("joint", 1e-6, 1e7, " per second²")),
             None,
             tr_later("[degrees/s², or length/s²]"),
         ),
@@ -95,13 +97,13 @@ def _build_joint(values: dict[str, Any], place: Place) -> Joint:
     joint = Joint(**values)
     unit = place.units.joint
     if not joint.lower < joint.upper:
-        below = tr("less than the upper limit {from_si:g}", from_si=unit.from_si(joint.upper))
+        below = tr("less than the upper limit {upper:g}", upper=unit.from_si(joint.upper))
         place.at("key 'lower'").refuse(f"{unit.from_si(joint.lower):g}", below, tr("Exchange lower and upper?"))
     if not joint.lower <= joint.home <= joint.upper:
         span = tr(
-            "a value within the limits {from_si:g} to {from_si2:g}",
-            from_si=unit.from_si(joint.lower),
-            from_si2=unit.from_si(joint.upper),
+            "a value within the limits {lower:g} to {upper:g}",
+            lower=unit.from_si(joint.lower),
+            upper=unit.from_si(joint.upper),
         )
         place.at("key 'home'").refuse(
             f"{unit.from_si(joint.home):g}", span, tr("Set home to a value the joint can take.")
@@ -255,7 +257,7 @@ def _build_servo(values: dict[str, Any], place: Place) -> Any:
 
 def _whole(value: float, key: str, place: Place) -> int:
     if value != int(value):
-        place.at(tr("key {key!r}", key=key)).refuse(shown(value), tr("a whole number"))
+        place.at(f"key {key!r}").refuse(shown(value), tr("a whole number"))
     return int(value)
 
 
@@ -349,7 +351,7 @@ def _check_names(kind: str, names: list[str], place: Place) -> None:
             there = place.at(f"{kind} {number}").at("key 'name'")
             there.refuse(
                 tr("{name!r} again", name=name),
-                tr("a name of its own: {kind} {first} is called so already", kind=kind, first=first),
+                tr("a name of its own: {other} is called so already", other=step_words(f"{kind} {first}")),
             )
 
 
@@ -364,34 +366,39 @@ def _check_frames(shapes: tuple[Shape, ...], dof: int, place: Place) -> None:
         counts[type(shape)] += 1
         there = place.at("look").at(f"{'box' if isinstance(shape, BoxShape) else 'capsule'} {counts[type(shape)]}")
         if shape.frame > dof + 1:
-            key = there.at("key 'frame'", tr("frame: {comment}.", comment=_FRAME.comment))
-            key.refuse(str(shape.frame), tr("0 to {dof} for an arm of {dof2} joints", dof=dof + 1, dof2=dof))
+            key = there.at("key 'frame'", f"frame: {_FRAME.comment}.")
+            key.refuse(
+                str(shape.frame),
+                trn("0 to {most} for an arm of {n} joint", "0 to {most} for an arm of {n} joints", dof, most=dof + 1),
+            )
         if shape.finger and shape.frame != dof:
-            key = there.at("key 'finger'", tr("finger: {comment}.", comment=_FINGER.comment))
+            key = there.at("key 'finger'", f"finger: {_FINGER.comment}.")
             key.refuse(
                 tr("a finger of frame {frame}", frame=shape.frame),
-                tr("frame {dof}, the flange, which carries the gripper", dof=dof),
+                tr("frame {frame}, the flange, which carries the gripper", frame=dof),
             )
 
 
 def _check_masses(masses: int, dof: int, place: Place) -> None:
     if masses not in (0, dof):
         place.at("mass").refuse(
-            tr("{masses} of them", masses=masses), tr("none, or one for each of the {dof} links", dof=dof)
+            trn("{n} of them", "{n} of them", masses),
+            trn("none, or one for the link", "none, or one for each of the {n} links", dof),
         )
 
 
 def _check_servos(servos: int, joints: int, place: Place) -> None:
     if servos not in (0, joints):
         place.at("servo").refuse(
-            tr("{servos} of them", servos=servos), tr("none, or one for each of the {joints} joints", joints=joints)
+            trn("{n} of them", "{n} of them", servos),
+            trn("none, or one for the joint", "none, or one for each of the {n} joints", joints),
         )
 
 
 def _check_size(joints: tuple[Joint, ...], place: Place) -> None:
     total = sum(abs(joint.d) + abs(joint.a) for joint in joints)
     if 0.0 < total < _SMALLEST_ARM:
-        found = tr("lengths d and a that add up to {from_si:g}", from_si=place.units.length.from_si(total))
+        found = tr("lengths d and a that add up to {sum:g}", sum=place.units.length.from_si(total))
         place.refuse(
             found, tr("lengths in millimetres"), tr('Metres? 0.15 m is 150. No unit at all? length_unit = "unit".')
         )

@@ -19,7 +19,7 @@ from rvsim.files.session.json_text import LARGEST, json_text, json_value
 from rvsim.files.session.migrations import MIGRATIONS, VERSION, Migration, migrated, version_of
 from rvsim.files.session.place import SessionPlace
 from rvsim.files.session.tables import FORMAT, HEAD, SESSION, head
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, trn
 
 ENDING = ".rvsim"
 
@@ -32,18 +32,19 @@ class OpenedSession(NamedTuple):
     read_only: bool = False
 
 
-def session_bytes(state: SessionState, path: object = tr_later("this session")) -> bytes:
+def session_bytes(state: SessionState, path: object = "") -> bytes:
     """The file of a session; it can be read again, or this raises. `path` is for the message.
 
     Raises:
         SessionFileError: a value in it that no file may hold.
     """
+    path = path or tr("this session")
     plain = SESSION.plain(state)
     SESSION.read(plain, SessionPlace(str(path)))
     data = json_text({**head(VERSION), **plain}).encode()
     if len(data) > LARGEST:
         raise SessionFileError(
-            path, tr("the file"), tr("{count} bytes", count=len(data)), tr("at most {largest} bytes", largest=LARGEST)
+            path, tr("the file"), trn("{n} byte", "{n} bytes", len(data)), tr("at most {most} bytes", most=LARGEST)
         )
     return data
 
@@ -123,7 +124,7 @@ def save_session(state: SessionState, path: str | Path, *, durable: bool = True)
 def _bytes_of(path: Path) -> bytes:
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            found = "a folder" if path.is_dir() else tr("something that is no file")
+            found = tr("a folder") if path.is_dir() else tr("something that is no file")
             raise SessionFileError(path, tr("the file"), found, tr("a session file ({ending})", ending=ENDING))
         with path.open("rb") as file:
             return file.read(LARGEST + 1)

@@ -17,16 +17,16 @@ _AS_UTF8 = tr_later("Save it as UTF-8 text.")
 _NOWHERE = r"(?!)"
 
 
-def read_bytes(path: Path) -> bytes:
-    """What is in a file, and never more than just too much of it.
+def read_bytes(path: Path, kind: str = tr_later("a robot file (.toml)")) -> bytes:
+    """What is in a file, and never more than just too much of it; `kind` is for messages, what it should be.
 
     Raises:
         RobotFileError: it cannot be opened or is no regular file.
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            found = "a folder" if path.is_dir() else tr("something that is no file")
-            raise RobotFileError(path, tr("the file"), found, tr("a robot file (.toml)"))
+            found = tr("a folder") if path.is_dir() else tr("something that is no file")
+            raise RobotFileError(path, tr("the file"), found, tr(kind))
         with path.open("rb") as file:
             return file.read(LARGEST + 1)
     except OSError as problem:
@@ -45,13 +45,13 @@ def text_of(data: bytes, path: object) -> str:
             path, tr("the file"), tr("a large file"), tr("at most {largest} kB of text", largest=LARGEST // 1024)
         )
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise RobotFileError(path, tr("the file"), "UTF-16 text", "UTF-8 text", _AS_UTF8)
+        raise RobotFileError(path, tr("the file"), tr("UTF-16 text"), tr("UTF-8 text"), tr(_AS_UTF8))
     try:
         return data.decode("utf-8-sig")  # some editors put a mark before the first letter
     except UnicodeDecodeError as problem:
         line = data.count(b"\n", 0, problem.start) + 1
-        found = tr("the byte 0x{data:02x}", data=data[problem.start])
-        raise RobotFileError(path, tr("line {line}", line=line), found, "UTF-8 text", _AS_UTF8) from None
+        where, found = tr("line {number}", number=line), tr("the byte 0x{byte:02x}", byte=data[problem.start])
+        raise RobotFileError(path, where, found, tr("UTF-8 text"), tr(_AS_UTF8)) from None
 
 
 def tables_of(text: str, path: object) -> dict[str, Any]:
@@ -100,6 +100,7 @@ def _nth(pattern: str, lines: list[str], start: int, number: int, until: str = _
 def _syntax(message: str) -> tuple[str, str, str]:
     # tomllib says "Invalid value (at line 3, column 9)"; Python alone speaks of the digits.
     what, _, place = message.partition(" (at ")
-    if "digits" in what:
-        what = tr("an integer has thousands of digits")
-    return place.rstrip(")") or tr("the file"), tr("a mistake ({lower})", lower=what[:1].lower() + what[1:]), "TOML"
+    what = tr("an integer has thousands of digits") if "digits" in what else what[:1].lower() + what[1:]
+    found = re.fullmatch(r"line (\d+), column (\d+)\)", place)
+    where = tr("line {line}, column {column}", line=found[1], column=found[2]) if found else place.rstrip(")")
+    return where or tr("the file"), tr("a mistake ({mistake})", mistake=what), "TOML"

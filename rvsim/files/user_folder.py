@@ -35,8 +35,8 @@ def find_user_folder() -> UserFolder:
     except (OSError, ValueError) as problem:  # ValueError: a zero byte in the variable
         reason = getattr(problem, "strerror", None) or str(problem)
         sentence = tr(
-            "{wanted} cannot be written ({reason}): what you save is kept only until the computer restarts.",
-            wanted=wanted,
+            "{folder} cannot be written ({reason}): what you save is kept only until the computer restarts.",
+            folder=wanted,
             reason=reason,
         )
         return UserFolder(_temporary_folder(), sentence)
@@ -55,7 +55,7 @@ def user_robot_files() -> tuple[Path, ...]:
 def user_robot_path(title: str) -> Path:
     """Where an arm of this title is saved: "my RV-M1" becomes robots/my-rv-m1.toml in the user's folder."""
     words = re.findall(r"[\w]+", title.lower())
-    return _robots() / tr("{value}.toml", value="-".join(words)[:80] or "robot")
+    return _robots() / f"{'-'.join(words)[:80] or 'robot'}.toml"
 
 
 def _robots() -> Path:

@@ -73,10 +73,11 @@ def json_value(data: bytes, path: object) -> Any:
     try:
         value = json.loads(text, object_pairs_hook=_without_doubles, parse_constant=_refuse_constant)
     except RecursionError:
-        raise SessionFileError(path, tr("the file"), tr("lists nested too deeply"), "a session") from None
+        raise SessionFileError(path, tr("the file"), tr("lists nested too deeply"), tr("a session")) from None
     except json.JSONDecodeError as problem:
-        where = tr("line {lineno}, column {colno}", lineno=problem.lineno, colno=problem.colno)
-        raise SessionFileError(path, where, tr("a mistake ({msg})", msg=problem.msg), "JSON", _SPEAKS) from None
+        where = tr("line {line}, column {column}", line=problem.lineno, column=problem.colno)
+        found = tr("a mistake ({mistake})", mistake=problem.msg)
+        raise SessionFileError(path, where, found, "JSON", tr(_SPEAKS)) from None
     except ValueError as problem:  # of ours, or Python's refusal of an integer of thousands of digits
         found = str(problem) if isinstance(problem, _MistakeError) else tr("an integer of thousands of digits")
         raise SessionFileError(path, tr("the file"), found, tr("JSON with plain numbers and each key once")) from None
@@ -93,13 +94,13 @@ def _text(data: bytes, path: object) -> str:
         found = tr("a large file")
         raise SessionFileError(path, tr("the file"), found, tr("at most {largest} MB", largest=LARGEST // 1024 // 1024))
     if data.count(b"[") + data.count(b"{") > _MOST_LISTS or data.count(b",") > _MOST_VALUES:
-        raise SessionFileError(path, tr("the file"), tr("hundreds of thousands of lists"), "a session")
+        raise SessionFileError(path, tr("the file"), tr("hundreds of thousands of lists"), tr("a session"))
     try:
         return data.decode("utf-8-sig")  # some editors put a mark before the first letter
     except UnicodeDecodeError as problem:
         line = data.count(b"\n", 0, problem.start) + 1
-        found = tr("the byte 0x{data:02x}", data=data[problem.start])
-        raise SessionFileError(path, tr("line {line}", line=line), found, "UTF-8 text", _SPEAKS) from None
+        where, found = tr("line {number}", number=line), tr("the byte 0x{byte:02x}", byte=data[problem.start])
+        raise SessionFileError(path, where, found, tr("UTF-8 text"), tr(_SPEAKS)) from None
 
 
 def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -107,7 +108,7 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(table) < len(pairs):
         keys = [key for key, _ in pairs]
         twice = next(key for key in keys if keys.count(key) > 1)
-        raise _MistakeError(tr("the key {twice!r} twice", twice=twice[:60]))
+        raise _MistakeError(tr("the key {key!r} twice", key=twice[:60]))
     return table
 
 
@@ -122,7 +123,7 @@ def _refuse_half_characters(text: str, value: Any, path: object) -> None:
         json.dumps(value, ensure_ascii=False).encode("utf-8")
     except UnicodeEncodeError:
         raise SessionFileError(
-            path, tr("the file"), "half of a character (\\ud800 to \\udfff)", tr("whole ones")
+            path, tr("the file"), tr("half of a character (\\ud800 to \\udfff)"), tr("whole ones")
         ) from None
 
 

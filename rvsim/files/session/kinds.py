@@ -15,9 +15,9 @@ import numpy as np
 
 from rvsim.errors import RvsimError, SessionFileError, did_you_mean
 from rvsim.files.kinds import REQUIRED
-from rvsim.files.place import Place, shown
+from rvsim.files.place import Place, count_of, either, list_of, shown
 from rvsim.files.session.json_text import finite
-from rvsim.language import tr
+from rvsim.language import tr, tr_later, trn
 
 
 class Kind(Protocol):
@@ -65,9 +65,17 @@ class Real:
 
     @property
     def _expected(self) -> str:
-        bounds = [tr("at least {least:g}", least=self.least)] * math.isfinite(self.least)
-        bounds += [tr("at most {most:g}", most=self.most)] * math.isfinite(self.most)
-        return " ".join([tr("a finite number"), " and ".join(bounds)]).strip()
+        text = _REALS[math.isfinite(self.least), math.isfinite(self.most)]
+        return tr(text, least=self.least, most=self.most)
+
+
+# What is expected of a number, by whether it has a lower and an upper bound.
+_REALS = {
+    (False, False): tr_later("a finite number"),
+    (True, False): tr_later("a finite number at least {least:g}"),
+    (False, True): tr_later("a finite number at most {most:g}"),
+    (True, True): tr_later("a finite number at least {least:g} and at most {most:g}"),
+}
 
 
 @dataclass(frozen=True)
@@ -90,17 +98,18 @@ class Whole:
 
 @dataclass(frozen=True)
 class Reals:
-    """A list of so many finite numbers; `what` says what each is."""
+    """A list of so many finite numbers; `expected` says it where it is more than their count, in English."""
 
     count: int
-    what: str = ""
+    expected: str = ""
 
     def read(self, value: Any, place: Place) -> tuple[float, ...]:
         """The numbers."""
         if not isinstance(value, list) or len(value) != self.count:
-            place.refuse(shown(value), tr("a list of {count} numbers{what}", count=self.count, what=self.what))
+            counted = trn("a list of {n} number", "a list of {n} numbers", self.count)
+            place.refuse(shown(value), tr(self.expected) if self.expected else counted)
         number = Real()
-        return tuple(number.read(item, place.at(tr("number {i}", i=i))) for i, item in enumerate(value, 1))
+        return tuple(number.read(item, place.at(f"number {i}")) for i, item in enumerate(value, 1))
 
     def plain(self, value: Any) -> list[float]:
         """With all their digits."""
@@ -118,11 +127,16 @@ class Rows:
     def read(self, value: Any, place: Place) -> Any:
         """(rows, width)."""
         if not isinstance(value, list) or not self.least <= len(value) <= self.most:
-            rows = f"{self.least}" if self.least == self.most else f"{self.least} to {self.most}"
-            place.refuse(shown(value), tr("a list of {rows} rows", rows=rows))
+            place.refuse(shown(value), self._expected)
         row = Reals(self.width)
-        found = [row.read(item, place.at(tr("row {i}", i=i))) for i, item in enumerate(value, 1)]
+        found = [row.read(item, place.at(f"row {i}")) for i, item in enumerate(value, 1)]
         return np.array(found, dtype=np.float64).reshape(-1, self.width)
+
+    @property
+    def _expected(self) -> str:
+        if self.least == self.most:
+            return trn("a list of {n} row", "a list of {n} rows", self.least)
+        return tr("a list of {least} to {most} rows", least=self.least, most=self.most)
 
     def plain(self, value: Any) -> list[list[float]]:
         """Row by row."""
@@ -143,7 +157,7 @@ class Words:
             place.refuse(shown(value), tr("a text in quotes"))
         if not self.shortest <= len(value) <= self.longest:
             place.refuse(
-                tr("a text of {count} characters", count=len(value)),
+                trn("a text of {n} character", "a text of {n} characters", len(value)),
                 tr("{shortest} to {longest} characters", shortest=self.shortest, longest=self.longest),
             )
         return value
@@ -163,7 +177,7 @@ class Choice:
         """The word."""
         if not isinstance(value, str) or value not in self.options:
             guess = did_you_mean(value[:100], self.options) if isinstance(value, str) else ""
-            place.refuse(shown(value), " or ".join(repr(option) for option in self.options), guess)
+            place.refuse(shown(value), either(self.options), guess)
         return value
 
     def plain(self, value: Any) -> str:
@@ -213,9 +227,9 @@ class Many:
     def read(self, value: Any, place: Place) -> tuple[Any, ...]:
         """Each item read."""
         if not isinstance(value, list):
-            place.refuse(shown(value), tr("a list of {one}s", one=self.one))
+            place.refuse(shown(value), list_of(self.one))
         if not self.fewest <= len(value) <= self.most:
-            place.refuse(tr("{count} of them", count=len(value)), f"{self.fewest} to {self.most} {self.one}s")
+            place.refuse(trn("{n} of them", "{n} of them", len(value)), count_of(self.one, self.fewest, self.most))
         return tuple(self.kind.read(item, place.at(f"{self.one} {i}")) for i, item in enumerate(value, 1))
 
     def plain(self, value: Any) -> list[Any]:
@@ -236,7 +250,7 @@ class Paragraphs:
         text = "\n".join(value)
         if len(text) > self.longest:
             place.refuse(
-                tr("a text of {count} characters", count=len(text)),
+                trn("a text of {n} character", "a text of {n} characters", len(text)),
                 tr("at most {longest} characters", longest=self.longest),
             )
         return text
@@ -289,5 +303,5 @@ def _read(field: Field, table: dict[str, Any], place: Place) -> Any:
     if field.name in table:
         return field.kind.read(table[field.name], place)
     if field.default is REQUIRED:
-        place.refuse("nothing", tr("this key, which is required"))
+        place.refuse(tr("nothing"), tr("this key, which is required"))
     return field.default

@@ -39,6 +39,6 @@ def migrated(
                     version=version,
                     problem=problem,
                 ),
-                "a session",
+                tr("a session"),
             )
     return document

@@ -20,11 +20,10 @@ from rvsim.files.robot_file import example_names, load_robot, robot_names
 from rvsim.files.robot_format import ROBOT
 from rvsim.files.robot_writer import robot_text
 from rvsim.files.session.place import SessionPlace
-from rvsim.language import tr, tr_later
+from rvsim.language import tr
 from rvsim.robot import Robot
 
 _SETTLING = 8  # times that rounding to the shortest decimals may find still shorter ones
-_HERE = SessionPlace(tr_later("this experiment"), ("robot",))
 
 
 @dataclass(frozen=True)
@@ -49,7 +48,7 @@ class RobotKind:
 def _embedded(tables: Any, place: Place) -> Robot:
     robot: Robot = ROBOT.read(tables, place)
     if not robot.name:
-        place.at("name").refuse("nothing", tr("the arm's short name"))
+        place.at("name").refuse(tr("nothing"), tr("the arm's short name"))
     return robot
 
 
@@ -87,7 +86,11 @@ def _plain_robot(robot: Robot) -> dict[str, Any]:
 
 
 def _rewritten_robot(tables: dict[str, Any]) -> dict[str, Any]:
-    return tomllib.loads(robot_text(ROBOT.read(tables, _HERE.at("file"))))
+    return tomllib.loads(robot_text(ROBOT.read(tables, _here("robot", "file"))))
+
+
+def _here(*steps: str) -> SessionPlace:
+    return SessionPlace(tr("this experiment"), steps)
 
 
 def _settled(tables: Any, rewritten: Callable[[Any], Any]) -> Any:
@@ -105,7 +108,7 @@ def plain_program(program: Program, robot: Robot) -> list[Any]:
         return []
 
     def rewritten(moves: list[Any]) -> list[Any]:
-        return _moves(read_program(moves, robot, SessionPlace(tr("this experiment"), ("program",))), robot)
+        return _moves(read_program(moves, robot, _here("program")), robot)
 
     settled: list[Any] = _settled(_moves(program, robot), rewritten)
     return settled

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from rvsim.errors import SessionFileError
-from rvsim.files.place import Place
+from rvsim.files.place import Place, hint_words, step_words
 from rvsim.language import tr
 
 
@@ -16,5 +16,5 @@ class SessionPlace(Place):
 
     def refuse(self, found: str, expected: str, suggestion: str = "") -> NoReturn:
         """Raise the `SessionFileError` of this place."""
-        where = ", ".join(self.steps) or tr("the file")
-        raise SessionFileError(self.path, where, found, expected, suggestion or self.hint)
+        where = tr(", ").join(map(step_words, self.steps)) or tr("the file")
+        raise SessionFileError(self.path, where, found, expected, suggestion or hint_words(self.hint))

@@ -49,21 +49,21 @@ from rvsim.files.session.kinds import (
     Words,
 )
 from rvsim.files.session.parts import RobotKind, plain_program, read_program
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.motion.trajectory import LAW_TITLES
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
-FORMAT = tr_later("rvsim session")
+FORMAT = "rvsim session"
 LONGEST_NOTES = 1_000_000  # characters
-_UNITS_NOTE = tr_later(
+_UNITS_NOTE = (
     "radians, metres, seconds, kilograms, newtons; moves and the arm's file in degrees, millimetres, percent, "
     "as in files of their own"
 )
 _MOST_POSES, _MOST_SAMPLES, _MOST_LEFT = 2000, 20_001, 64
 _NAME = Words(60, shortest=1)
-_POINT = Reals(3, ": x, y, z")
-_TURN = Reals(3, tr_later(": roll, pitch, yaw"))
+_POINT = Reals(3, tr_later("a list of 3 numbers: x, y, z"))
+_TURN = Reals(3, tr_later("a list of 3 numbers: roll, pitch, yaw"))
 _ORIENTATION = Choice(get_args(PathOrientation))
 _POSITIVE = Real(1e-12)
 _REAL = Real()
@@ -174,7 +174,7 @@ _TRAJECTORY = Record(
 
 _LOAD = Record(
     (
-        Field("wrench", Reals(6, tr_later(": fx, fy, fz, mx, my, mz"))),
+        Field("wrench", Reals(6, tr_later("a list of 6 numbers: fx, fy, fz, mx, my, mz"))),
         Field("axes", Choice(get_args(WrenchAxes))),
         Field("payload", Real(0.0)),
         Field("own_weight", Flag()),
@@ -221,7 +221,13 @@ class _ProgramKind:
 
 
 def _experiment_fields(robot: Robot) -> tuple[Field, ...]:
-    q = Reals(robot.dof, tr(", one for each joint of the {title}", title=robot.title))
+    expected = trn(
+        "a list of {n} number, one for each joint of the {robot}",
+        "a list of {n} numbers, one for each joint of the {robot}",
+        robot.dof,
+        robot=robot.title,
+    )
+    q = Reals(robot.dof, expected)
     pose = Record((Field("name", Words(40_000, shortest=1)), Field("q", q)), _named_pose, NamedPose._asdict)
     return (
         Field("q", q),
@@ -280,9 +286,7 @@ def _check_pose_names(experiment: Experiment, place: Place) -> None:
     names = [pose.name for pose in experiment.poses]
     for number, name in enumerate(names, 1):
         if names.index(name) + 1 < number:
-            place.at(tr("pose {number}", number=number)).refuse(
-                tr("the name {name!r} again", name=name[:60]), tr("a name of its own")
-            )
+            place.at(f"pose {number}").refuse(tr("the name {name!r} again", name=name[:60]), tr("a name of its own"))
 
 
 def _check_shape(task: TrajectoryTask, place: Place) -> None:
