@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QSignalBlocker, QSize, Qt, QTimer
 from PySide6.QtGui import QFontMetrics, QResizeEvent
-from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QSlider, QToolButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QToolButton, QWidget
 
+from rvsim.gui.calm_boxes import ComboBox, Slider
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.preferences import SETTINGS, Preferences
 from rvsim.gui.quantities import format_number
@@ -30,7 +31,7 @@ class PlayerBar(QWidget):
         self._least = 0  # [pixels] that signs, slider, speed and loop need
         self.play = self._button("play_button", tr("▶ Play"), tr("Play or pause (F5)"), motion.toggle)
         self.stop = self._button("stop_button", tr("■ Stop"), tr("Stop and go back to the beginning"), motion.stop)
-        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.slider = Slider()
         self.slider.setObjectName("time_slider")
         self.slider.setAccessibleName(tr("Time"))
         self.slider.setRange(0, _TICKS)
@@ -41,7 +42,7 @@ class PlayerBar(QWidget):
         self.time = QLabel(tr("No motion yet"))
         self.time.setObjectName("time_label")
         set_role(self.time, role="muted")
-        self.speed = QComboBox()
+        self.speed = ComboBox()
         self.speed.setObjectName("speed_selector")
         self.speed.setAccessibleName(tr("Speed"))
         self.speed.setToolTip(tr("Speed of the motion"))

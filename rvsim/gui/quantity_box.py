@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QWidget
 
 from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate_in
+from rvsim.gui.calm_boxes import needs_focus
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number, without_unit
 from rvsim.language import left_to_right, tr
@@ -36,6 +37,7 @@ class QuantityBox(QDoubleSpinBox):
         self._quantity, self._lower, self._upper = 0.0, -math.inf, math.inf
         self._limits_hint = ""
         self._span = (0.0, 0.0)
+        needs_focus(self)
         self.setKeyboardTracking(False)
         self.setAccessibleName(self._title)
         self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # a number and its unit, in any language
@@ -233,9 +235,9 @@ class QuantityBox(QDoubleSpinBox):
             self._step(steps, event.modifiers())
 
     def wheelEvent(self, event: QWheelEvent) -> None:
-        """One notch is one step; some systems turn the wheel sideways while a modifier is held."""
+        """One notch is one step, with the focus; some systems turn the wheel sideways while a modifier is held."""
         notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
-        if notches and not self.isReadOnly():
+        if notches and self.hasFocus() and not self.isReadOnly():
             self._step(notches, event.modifiers())
             event.accept()
         else:

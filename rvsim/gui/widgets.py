@@ -18,12 +18,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rvsim.gui.calm_boxes import ComboBox
 from rvsim.language import tr
 
 
 def combo(object_name: str, title: str, choices: Mapping[str, str] | None = None) -> QComboBox:
     """A combo box with a name for tests, one for screen readers, and choices data → text, said in the language."""
-    box = QComboBox()
+    box = ComboBox()
     box.setObjectName(object_name)
     box.setAccessibleName(tr(title))
     box.setToolTip(tr(title))

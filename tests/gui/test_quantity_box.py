@@ -64,6 +64,8 @@ def enter(box, qtbot, text):
 
 
 def wheel(box, notches, modifiers=NONE, *, sideways=False):
+    box.window().activateWindow()
+    box.setFocus()
     delta = QPoint(120 * notches, 0) if sideways else QPoint(0, 120 * notches)
     box.wheelEvent(
         QWheelEvent(

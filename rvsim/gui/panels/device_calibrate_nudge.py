@@ -6,8 +6,9 @@ from functools import partial
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QSpinBox, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
+from rvsim.gui.calm_boxes import CountBox
 from rvsim.gui.quantities import format_number
 from rvsim.language import tr, tr_later
 from rvsim.robot.servo import LONGEST_US, SHORTEST_US
@@ -32,7 +33,7 @@ class NudgeRow(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.box = QSpinBox()
+        self.box = CountBox()
         self.box.setObjectName("calibrate_pulse")
         self.box.setAccessibleName(tr("Pulse of this servo"))
         self.box.setToolTip(

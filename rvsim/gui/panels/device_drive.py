@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QSignalBlocker, Qt
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QHeaderView, QLabel, QSizePolicy, QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QHeaderView, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from rvsim.device.driver.state import MEASURED_WORDS, DriverState
 from rvsim.experiment import Experiment
+from rvsim.gui.calm_boxes import Slider
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.device_words import phase_level, phase_words
 from rvsim.gui.panels.device_port import PortSection
@@ -84,7 +85,7 @@ class DrivePage(InspectPage):
                                                                 "been sent to"),
             device.take_pose,
         )  # fmt: skip
-        self.gripper = QSlider(Qt.Orientation.Horizontal)
+        self.gripper = Slider()
         self.gripper.setObjectName("device_gripper")
         self.gripper.setAccessibleName(tr("Gripper, from closed to open"))
         self.gripper.setRange(0, _STEPS)

@@ -6,8 +6,9 @@ import math
 
 from PySide6.QtCore import QEvent, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+from rvsim.gui.calm_boxes import Slider
 from rvsim.gui.panels.joint_box import JointBox
 from rvsim.gui.panels.tables import text_metrics
 from rvsim.gui.preferences import Preferences
@@ -51,7 +52,7 @@ class JointRow(QWidget):
         title = f"J{index + 1} {tr(joint.name)}"
         self.box = JointBox(robot, index, preferences, title)
         self.box.setObjectName(f"joint_value_{index + 1}")
-        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.slider = Slider()
         self.slider.setObjectName(f"joint_slider_{index + 1}")
         self.slider.setAccessibleName(tr("{title}, slider", title=title))
         self._lower, self._upper = QLabel(), QLabel()

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QEvent, QObject, QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QScrollArea, QSizePolicy, QSlider, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QScrollArea, QSizePolicy, QToolButton, QWidget
 
 from rvsim.errors import ExpressionError
 from rvsim.expressions import evaluate
+from rvsim.gui.calm_boxes import Slider
 from rvsim.gui.panels.joint_row import slider_range
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import joint_kind
@@ -122,7 +123,7 @@ class StartJoint(QWidget):
         super().__init__()
         self._index, self._ends = index, slider_range(robot, index, False)
         title = tr("Start of J{number} {joint}", number=index + 1, joint=tr(robot.joint_names[index]))
-        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.slider = Slider()
         self.slider.setObjectName(f"lab_start_slider_{index + 1}")
         self.slider.setAccessibleName(tr("{title}, slider", title=title))
         self.slider.setToolTip(title)

@@ -7,10 +7,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QSizePolicy, QSlider, QVBoxLayout, QWidget
+from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from rvsim.errors import SettingError
+from rvsim.gui.calm_boxes import Slider
 from rvsim.gui.panels.laboratory_fields import Disclosure, NumberEdit
 from rvsim.gui.panels.laboratory_setup import labelled_row
 from rvsim.gui.preferences import Preferences
@@ -161,7 +162,7 @@ class RulesChooser(QWidget):
 
     def _make_damping(self) -> None:
         tip = tr("λ of damped least squares (DLS): small is quick and wild, large is slow and calm near singular poses")
-        self.damping = QSlider(Qt.Orientation.Horizontal)
+        self.damping = Slider()
         self.damping.setObjectName("lab_damping_slider")
         self.damping.setAccessibleName(tr("Damping of DLS, slider"))
         self.damping.setToolTip(tip)

@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt
-from PySide6.QtWidgets import QGridLayout, QGroupBox, QHBoxLayout, QLabel, QSpinBox
+from PySide6.QtWidgets import QGridLayout, QGroupBox, QHBoxLayout, QLabel
 
 from rvsim.experiment import Experiment, LineTask, PathOrientation
+from rvsim.gui.calm_boxes import CountBox
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import length_kind
 from rvsim.gui.quantity_box import QuantityBox
@@ -53,7 +54,7 @@ class LineSection(QGroupBox):
         )
         self.resolution.refused.connect(session.warn)
         self.resolution.editingFinished.connect(session.end_stroke)
-        self.samples = QSpinBox()
+        self.samples = CountBox()
         self.samples.setObjectName("line_points")
         self.samples.setAccessibleName(tr("Number of points on the line"))
         self.samples.setRange(2, 1001)

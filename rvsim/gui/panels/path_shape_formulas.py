@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QLineEdit, QSpinBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from rvsim.errors import FormulaError
 from rvsim.experiment import Shape
 from rvsim.experiment.shapes import FormulaShape, FormulaStage
+from rvsim.gui.calm_boxes import CountBox
 from rvsim.gui.panels.path_shape_rows import ShapeEditor
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantity_box import QuantityBox
@@ -34,7 +35,7 @@ class _StageRows(QWidget):
         self.end = QuantityBox("time", preferences, tr("Stage {number} until", number=number))
         self.end.setObjectName(f"stage{number}_end")
         self.end.quantity_changed.connect(lambda _: self._tell())
-        self.samples = QSpinBox()
+        self.samples = CountBox()
         self.samples.setObjectName(f"stage{number}_samples")
         self.samples.setAccessibleName(tr("Stage {number}: number of points", number=number))
         self.samples.setRange(2, MOST_SAMPLES)

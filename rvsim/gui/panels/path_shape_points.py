@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QSpinBox, QVBoxLayout
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QVBoxLayout
 
 from rvsim.errors import ExpressionError, PathFileError
 from rvsim.experiment import Shape
 from rvsim.experiment.shapes import PointsShape
 from rvsim.expressions import evaluate_in
+from rvsim.gui.calm_boxes import CountBox
 from rvsim.gui.panels.path_clicks import ClickRows
 from rvsim.gui.panels.path_shape_rows import ShapeEditor
 from rvsim.gui.panels.tables import RIGHT, Index, plain_table
@@ -122,7 +123,7 @@ class PointRows(ShapeEditor):
         self.table.selectionModel().currentRowChanged.connect(self._show_chosen)
         self.join = combo("points_join", tr("How the points are joined"), _JOINS)
         self.join.activated.connect(lambda _: self._edit(join=self.join.currentData()))
-        self.samples = QSpinBox()
+        self.samples = CountBox()
         self.samples.setObjectName("shape_samples")
         self.samples.setAccessibleName(tr("Number of points on the whole path"))
         self.samples.setRange(2, 5001)

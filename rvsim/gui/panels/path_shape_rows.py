@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any, Literal, NamedTuple
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QSizePolicy, QSpinBox, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QSizePolicy, QWidget
 
 from rvsim.experiment import Shape
 from rvsim.experiment.shapes import (
@@ -18,6 +18,7 @@ from rvsim.experiment.shapes import (
     StarShape,
     TextShape,
 )
+from rvsim.gui.calm_boxes import CountBox
 from rvsim.gui.panels.number_row import NumberRow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, length_kind
@@ -93,7 +94,7 @@ class ShapeRows(ShapeEditor):
         super().__init__()
         self._shape: Any = None
         self._robot, self._preferences = robot, preferences
-        self._boxes: dict[str, QuantityBox | QSpinBox] = {}
+        self._boxes: dict[str, QuantityBox | CountBox] = {}
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setHorizontalSpacing(8)
@@ -122,8 +123,8 @@ class ShapeRows(ShapeEditor):
         self._grid.setColumnStretch(column, 1)
         self._boxes[field.name] = box
 
-    def _count(self, field: Field) -> QSpinBox:
-        box = QSpinBox()
+    def _count(self, field: Field) -> CountBox:
+        box = CountBox()
         box.setRange(int(field.lower), int(field.upper))
         box.setKeyboardTracking(False)
         box.setAccessibleName(tr("Shape: {quantity}", quantity=tr(field.title)))
