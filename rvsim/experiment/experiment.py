@@ -12,7 +12,6 @@ from rvsim.experiment.load import NO_LOAD, Load
 from rvsim.experiment.notes import NO_NOTES, Notes
 from rvsim.experiment.program import Program
 from rvsim.experiment.shapes import Placement, Shape
-from rvsim.language import tr
 from rvsim.motion.trajectory import Law
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
@@ -45,8 +44,8 @@ class LineTask:
     orientation: PathOrientation = "down"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "start", frozen_array(tr("line start"), self.start, (3,)))
-        object.__setattr__(self, "end", frozen_array(tr("line end"), self.end, (3,)))
+        object.__setattr__(self, "start", frozen_array("line start", self.start, (3,)))
+        object.__setattr__(self, "end", frozen_array("line end", self.end, (3,)))
 
     @property
     def samples(self) -> int:

@@ -38,7 +38,7 @@ class Load:
     def __post_init__(self) -> None:
         object.__setattr__(self, "wrench", frozen_array("wrench", self.wrench, (6,)))
         if not np.isfinite(self.wrench).all():
-            raise SettingError("wrench", self.wrench.tolist(), "finite")
+            raise SettingError("wrench", self.wrench.tolist(), tr("finite"))
         if not 0.0 <= self.payload < math.inf:
             raise SettingError("payload", self.payload, tr("finite and 0 or more"))
 

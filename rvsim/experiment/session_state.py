@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Literal
 
 from rvsim.experiment.experiment import Experiment
-from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 Look = Literal["stick", "solid", "both"]
@@ -39,7 +38,7 @@ class CameraView:
 
     def __post_init__(self) -> None:
         if self.target is not None:
-            object.__setattr__(self, "target", frozen_array(tr("camera target"), self.target, (3,)))
+            object.__setattr__(self, "target", frozen_array("camera target", self.target, (3,)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,6 @@ from typing import Literal
 
 import numpy as np
 
-from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 Join = Literal["lines", "natural", "not-a-knot", "closed", "none"]
@@ -39,7 +38,7 @@ class ArcThroughShape:
     samples: int = 51
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", frozen_array(tr("arc points"), self.points, (3, 3)))
+        object.__setattr__(self, "points", frozen_array("arc points", self.points, (3, 3)))
 
 
 @dataclass(frozen=True)
@@ -145,5 +144,5 @@ class Placement:
     scale: float = 1.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "center", frozen_array(tr("placement center"), self.center, (3,)))
-        object.__setattr__(self, "rpy", frozen_array(tr("placement rpy"), self.rpy, (3,)))
+        object.__setattr__(self, "center", frozen_array("placement center", self.center, (3,)))
+        object.__setattr__(self, "rpy", frozen_array("placement rpy", self.rpy, (3,)))

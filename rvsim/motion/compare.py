@@ -18,7 +18,7 @@ from rvsim.errors import NoClosedFormError
 from rvsim.kinematics import AS_IN_SOURCE_000, SolverOptions, forward_kinematics, solve_numeric
 from rvsim.kinematics.numeric import Solver, Task
 from rvsim.kinematics.singularity import task_rows
-from rvsim.language import tr, tr_later
+from rvsim.language import tr_later
 from rvsim.motion.path import Path
 from rvsim.motion.tracking import find_jumps, track
 from rvsim.motion.turns import existing
@@ -39,7 +39,7 @@ class Contestant(NamedTuple):
 
 
 CONTESTANTS = (
-    Contestant(tr_later("closed form"), tr_later("Closed form, best branches"), None),
+    Contestant("closed form", tr_later("Closed form, best branches"), None),
     Contestant("newton", tr_later("Newton–Raphson"), "newton"),
     Contestant("dls", tr_later("Damped least squares"), "dls"),
     Contestant("lm", tr_later("Levenberg–Marquardt"), "lm"),
@@ -175,8 +175,8 @@ def _entry(
         frozen_array("q", q, q.shape),
         seconds,
         iterations,
-        frozen_array(tr("position error"), position, position.shape),
-        frozen_array(tr("rotation error"), rotation, rotation.shape),
+        frozen_array("position error", position, position.shape),
+        frozen_array("rotation error", rotation, rotation.shape),
         find_jumps(robot, q, with_rotation),
     )
 

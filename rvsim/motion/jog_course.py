@@ -27,7 +27,10 @@ _SMALLEST = 1e-4  # singular values below are lost; lengths in sizes of the arm
 _DAMPING = 0.02  # of the orientation, which comes second: what it cannot have must not throw the arm about
 _LOST = 1e-2  # of a wished velocity: an arm that misses more cannot do it
 _SLOWEST = 0.05  # of full speed: where a joint's top speed allows no more, a singularity ends the course
-_SIDES = ("lower", "upper")
+_AT_LIMIT = (
+    tr_later("Stopped: the {joint} is at its lower limit."),
+    tr_later("Stopped: the {joint} is at its upper limit."),
+)
 _HALVINGS = 5  # of a step: the end of a course is found as closely as that
 _USUAL_SPEED = math.radians(120.0)  # of a joint without a known top speed; a sliding one: the arm's size in 2 s
 
@@ -54,11 +57,6 @@ class Limit(NamedTuple):
     joint: int
     side: int
     value: float
-
-    @property
-    def side_name(self) -> str:
-        """ "lower" or "upper"."""
-        return _SIDES[self.side]
 
 
 class Point(NamedTuple):
@@ -131,9 +129,7 @@ class Course:
         speeds = np.abs(point.q - before) / (step * self._top)
         joint = int(np.argmax(speeds))
         if not problem and speeds[joint] * _SLOWEST > 1.0:
-            problem = _singular(
-                tr("the {joint_names} would have to move too fast", joint_names=self._robot.joint_names[joint])
-            )
+            problem = _singular(tr("the {joint} would have to move too fast", joint=tr(self._robot.joint_names[joint])))
         if not problem:
             self._ways.append(self._ways[-1] + step)
             self._points.append(point.q)
@@ -151,11 +147,7 @@ class Course:
     def _limit_text(self, limit: Limit | None) -> str:
         if limit is None:
             return ""
-        return tr(
-            "Stopped: the {joint_names} is at its {side_name} limit.",
-            joint_names=self._robot.joint_names[limit.joint],
-            side_name=limit.side_name,
-        )
+        return tr(_AT_LIMIT[limit.side], joint=tr(self._robot.joint_names[limit.joint]))
 
     # --- along it --------------------------------------------------------------------------------------------------
 
@@ -204,8 +196,8 @@ class Course:
         index, length, _ = self._interval(way)
         if not length or self._caps[index] > 0.999:
             return ""
-        name = self._robot.joint_names[self._slowest[index]]
-        return tr("Slowed: the {name} moves at its top speed.", name=name)
+        joint = tr(self._robot.joint_names[self._slowest[index]])
+        return tr("Slowed: the {joint} moves at its top speed.", joint=joint)
 
     def speed_limits(self, deceleration: float) -> tuple[FloatArray, FloatArray]:
         """Places (k,) and the squares (k,) of the largest share of full speed there that can still be braked.
@@ -271,8 +263,12 @@ class _ToolGuide:
         missed = np.linalg.norm(twist[:3] - self._v) > _LOST * np.linalg.norm(self._v) + 1e-9
         turned = np.linalg.norm(twist[3:] - self._w) > _LOST * max(float(np.linalg.norm(self._w)), 0.1)
         if missed or (turned and self._strict):
-            kept = tr(" while its tool stays in place") if np.any(self._w) else ""
-            return tr("This arm cannot do that here: {name} is lost{kept}.", name=self._motion.name, kept=kept)
+            motion = tr(self._motion.name)
+            if np.any(self._w):
+                return tr(
+                    "This arm cannot do that here: {motion} is lost while its tool stays in place.", motion=motion
+                )
+            return tr("This arm cannot do that here: {motion} is lost.", motion=motion)
         return ""
 
     def rates(self, q: FloatArray) -> FloatArray:
@@ -292,7 +288,7 @@ class _ToolGuide:
                 break
             q = q + step
         if np.linalg.norm(off) > _POSITION or (self._strict and np.linalg.norm(turned) > _TURN):
-            return Point(q, _singular(tr("{name} is lost there", name=self._motion.name)))
+            return Point(q, _singular(tr("{motion} is lost there", motion=tr(self._motion.name))))
         return Point(q)
 
 

@@ -13,7 +13,7 @@ from rvsim.language import tr, tr_later
 from rvsim.robot.arrays import FloatArray, check_finite, frozen_array
 
 # The tool's z axis points straight down, its x axis along the base's x axis (source 000 tracks with this rotation).
-TOOL_DOWN = frozen_array(tr_later("tool down"), np.diag([1.0, -1.0, -1.0]), (3, 3))
+TOOL_DOWN = frozen_array("tool down", np.diag([1.0, -1.0, -1.0]), (3, 3))
 
 _IDENTITY = frozen_array("identity", np.eye(3), (3, 3))
 _CORNER, _UNUSUAL = np.radians(25.0), 4.0  # how far a path must turn to have a corner, and how many times the usual
@@ -47,16 +47,16 @@ class Path:
     known_corners: NDArray[np.intp] | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", frozen_array(tr("path points"), self.points, (-1, 3)))
+        object.__setattr__(self, "points", frozen_array("path points", self.points, (-1, 3)))
         if not self.samples:
             raise ShapeError(tr("path points"), tr("(at least 1, 3)"), self.points.shape)
-        check_finite(tr("path points"), self.points)
+        check_finite("path points", self.points)
         if self.rotations is not None:
-            rotations = frozen_array(tr("path rotations"), self.rotations, (self.samples, 3, 3))
+            rotations = frozen_array("path rotations", self.rotations, (self.samples, 3, 3))
             object.__setattr__(self, "rotations", rotations)
-            check_finite(tr("path rotations"), rotations)
+            check_finite("path rotations", rotations)
         if self.pen_up is not None and np.shape(self.pen_up) != (self.samples,):
-            raise ShapeError(tr("path pen_up"), f"({self.samples},)", np.shape(self.pen_up))
+            raise ShapeError("path pen_up", f"({self.samples},)", np.shape(self.pen_up))
 
     @property
     def samples(self) -> int:
@@ -124,8 +124,8 @@ class Path:
 
 def through_points(points: ArrayLike, rotation: ArrayLike | None = None, *, name: str = "points") -> Path:
     """The path through points (m, 3) with one orientation (3, 3), one each (m, 3, 3), or a free one (None)."""
-    places = frozen_array(tr("path points"), points, (-1, 3))
-    return Path(name, places, _each(rotation, len(places)), title="Points")
+    places = frozen_array("path points", points, (-1, 3))
+    return Path(name, places, _each(rotation, len(places)), title=tr_later("Points"))
 
 
 def line_path(start: ArrayLike, end: ArrayLike, samples: int, rotation: ArrayLike | None = TOOL_DOWN) -> Path:
@@ -135,14 +135,14 @@ def line_path(start: ArrayLike, end: ArrayLike, samples: int, rotation: ArrayLik
         samples: the number of points, at least 2.
         rotation: (3, 3) for all points, (m, 3, 3), or None where the orientation is free.
     """
-    first, last = frozen_array(tr("line start"), start, (3,)), frozen_array(tr("line end"), end, (3,))
+    first, last = frozen_array("line start", start, (3,)), frozen_array("line end", end, (3,))
     t = np.linspace(0.0, 1.0, max(samples, 2))[:, None]
-    return Path("line", (1.0 - t) * first + t * last, _each(rotation, len(t)), title="Line")
+    return Path("line", (1.0 - t) * first + t * last, _each(rotation, len(t)), title=tr_later("Line"))
 
 
 def radial_rotations(points: ArrayLike) -> FloatArray:
     """(m, 3, 3): at each point the tool's z axis points level and straight away from the base axis, its y axis up."""
-    places = frozen_array(tr("path points"), points, (-1, 3))
+    places = frozen_array("path points", points, (-1, 3))
     azimuth = np.arctan2(places[:, 1], places[:, 0])
     rotations = np.zeros((len(places), 3, 3))
     rotations[:, 0, 2] = rotations[:, 1, 0] = np.cos(azimuth)

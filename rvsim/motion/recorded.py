@@ -7,7 +7,6 @@ from numpy.typing import ArrayLike
 
 from rvsim.errors import ShapeError
 from rvsim.kinematics import forward_kinematics
-from rvsim.language import tr
 from rvsim.motion.laws import PiecewisePolynomial
 from rvsim.motion.path import Path
 from rvsim.motion.tracking_result import Tracking
@@ -34,7 +33,7 @@ def motion_through(
     """
     poses = frozen_array("q", q, (-1, robot.dof))
     if not len(poses):
-        raise ShapeError("q", tr("(at least 1, {dof})", dof=robot.dof), poses.shape)
+        raise ShapeError("q", f"(at least 1, {robot.dof})", poses.shape)
     approach = joint_move(robot, start_q, poses[0], law=law)
     if len(poses) == 1:
         return approach

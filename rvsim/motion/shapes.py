@@ -121,7 +121,7 @@ def spline_curve(knots: ArrayLike, samples: int, ends: str = "natural") -> Drawi
     Raises:
         ShapeError: fewer than two knots.
     """
-    known = frozen_array(tr("spline knots"), knots, (-1, np.shape(knots)[-1]))
+    known = frozen_array("spline knots", knots, (-1, np.shape(knots)[-1]))
     known = known[np.concatenate([[True], np.any(np.diff(known, axis=0) != 0.0, axis=1)])]
     if len(known) < 2:
         raise ShapeError(tr("spline knots"), tr("(at least 2 different ones, …)"), known.shape)

@@ -25,12 +25,12 @@ def spline_points(knots: ArrayLike, values: ArrayLike, at: ArrayLike) -> FloatAr
     Raises:
         ShapeError: fewer than four knots, or knots and values do not fit together.
     """
-    x = frozen_array(tr("spline knots"), knots, (-1,))
+    x = frozen_array("spline knots", knots, (-1,))
     if len(x) < 4:
         raise ShapeError(tr("spline knots"), tr("(at least 4,)"), x.shape)
-    y = frozen_array(tr("spline values"), values, (len(x), -1))
+    y = frozen_array("spline values", values, (len(x), -1))
     slopes = knot_slopes(x, y, "not-a-knot")
-    t = frozen_array(tr("spline parameters"), at, (-1,))
+    t = frozen_array("spline parameters", at, (-1,))
     piece = np.clip(np.searchsorted(x, t, side="right") - 1, 0, len(x) - 2)
     return _hermite(x, y, slopes, piece, t)
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import ShapeError
-from rvsim.language import tr, tr_later
+from rvsim.language import tr_later
 from rvsim.motion.laws import (
     Moments,
     PiecewisePolynomial,
@@ -118,7 +118,7 @@ class Trajectory:
 
     def __post_init__(self) -> None:
         if not self.stretches:
-            raise ShapeError("stretches", tr("(at least 1,)"), (0,))
+            raise ShapeError("stretches", "(at least 1,)", (0,))
         for before, after in zip(self.stretches, self.stretches[1:], strict=False):
             if not np.array_equal(before.q[-1], after.q[0]):
                 raise ValueError("A stretch of a trajectory must begin in the pose in which the one before ends.")

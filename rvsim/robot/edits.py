@@ -10,7 +10,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from rvsim.errors import UnknownNameError
-from rvsim.language import tr, tr_later
+from rvsim.language import tr_later
 from rvsim.robot.arrays import FloatArray
 from rvsim.robot.robot import Convention, Joint, LinkMass, Robot
 from rvsim.robot.shape import BoxShape, CapsuleShape, Shape
@@ -24,10 +24,8 @@ _EDITED = tr_later("of the link before its DH row was edited")
 
 
 def copied_source(robot: Robot) -> str:
-    """The source of a copy: whose copy it is, and where the numbers of that one are from."""
-    return tr("copy of {title} ({name})", title=robot.title, name=robot.name) + (
-        f"; {robot.source}" if robot.source else ""
-    )
+    """The source of a copy: whose copy it is, and where the numbers of that one are from. In English, as in files."""
+    return f"copy of {robot.title} ({robot.name})" + (f"; {robot.source}" if robot.source else "")
 
 
 def original_name(robot: Robot) -> str:
@@ -69,7 +67,7 @@ def with_dh_value(robot: Robot, joint: int, key: DHKey, value: float, *, look_of
         RobotDefinitionError: the value makes no arm (not finite, a lower limit above the upper one).
     """
     if key not in DH_KEYS:
-        raise UnknownNameError(tr("DH value"), key, DH_KEYS)
+        raise UnknownNameError(tr_later("DH value"), key, DH_KEYS)
     changes: dict[str, float] = {key: value}
     old = robot.joints[joint]
     if key in ("lower", "upper"):

@@ -39,7 +39,7 @@ def with_mass_value(robot: Robot, link: int, key: MassKey, value: float) -> Robo
         RobotDefinitionError: not finite, or a negative mass or moment of inertia.
     """
     if key not in MASS_KEYS:
-        raise UnknownNameError(tr("mass value"), key, MASS_KEYS)
+        raise UnknownNameError(tr_later("mass value"), key, MASS_KEYS)
     if not math.isfinite(value) or (value < 0.0 and key not in ("x", "y", "z")):
         raise RobotDefinitionError(
             robot.name, tr("link {link}: {key} must be finite, and no mass is negative.", link=link + 1, key=key)

@@ -33,13 +33,11 @@ def with_max_torque(robot: Robot, joint: int, value: float | None) -> Robot:
         return robot.with_joint(joint, max_torque=None)
     if not LEAST_RATING <= value <= LARGEST_RATING:
         rule = tr(
-            "a torque rating is a number above 0, up to {largest_rating:,.0f}; {value:g} is none.",
-            largest_rating=LARGEST_RATING,
+            "a torque rating is a number above 0, up to {most:,.0f}; {value:g} is none.",
+            most=LARGEST_RATING,
             value=value,
         )
-        raise RobotDefinitionError(
-            robot.name, tr("joint {joint_names!r}: {rule}", joint_names=robot.joint_names[joint], rule=rule)
-        )
+        raise RobotDefinitionError(robot.name, tr("joint {joint!r}: {rule}", joint=robot.joint_names[joint], rule=rule))
     return robot.with_joint(joint, max_torque=Datum(value, assumed=True, source=BY_HAND))
 
 

@@ -93,8 +93,8 @@ class Gripper:
     closing: FloatArray = field(default_factory=lambda: _NOWHERE)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", frozen_array(tr("gripper points"), self.points, (-1, 3)))
-        object.__setattr__(self, "closing", frozen_array(tr("gripper closing"), self.closing, (3,)))
+        object.__setattr__(self, "points", frozen_array("gripper points", self.points, (-1, 3)))
+        object.__setattr__(self, "closing", frozen_array("gripper closing", self.closing, (3,)))
 
     def shift(self, points: FloatArray, opening: float) -> FloatArray:
         """(..., 3) how far points (..., 3) of the fingers are from where they are drawn; `opening` is 0 (closed) … 1.
@@ -177,11 +177,11 @@ class Robot:
             )
         if self.masses and len(self.masses) != self.dof:
             raise RobotDefinitionError(
-                self.name, tr("{count} link masses for {dof} links.", count=len(self.masses), dof=self.dof)
+                self.name, tr("{masses} link masses for {links} links.", masses=len(self.masses), links=self.dof)
             )
         if self.servos and len(self.servos) != self.dof:
             raise RobotDefinitionError(
-                self.name, tr("{count} servos for {dof} joints.", count=len(self.servos), dof=self.dof)
+                self.name, tr("{servos} servos for {joints} joints.", servos=len(self.servos), joints=self.dof)
             )
         _check_channels(self.name, self.servos, self.gripper_servo)
         if not self.tool_name:
@@ -265,14 +265,14 @@ def _check_joint(robot: str, joint: Joint) -> None:
     where = tr("joint {name!r}", name=joint.name)
     if joint.type not in ("revolute", "prismatic"):
         raise RobotDefinitionError(
-            robot, tr("{where} is {type!r}; a joint is 'revolute' or 'prismatic'.", where=where, type=joint.type)
+            robot, tr("{joint} is {type!r}; a joint is 'revolute' or 'prismatic'.", joint=where, type=joint.type)
         )
     if not all(math.isfinite(value) for value in (joint.theta, joint.d, joint.a, joint.alpha, joint.home)):
-        raise RobotDefinitionError(robot, tr("{where} has a DH value that is not finite.", where=where))
+        raise RobotDefinitionError(robot, tr("{joint} has a DH value that is not finite.", joint=where))
     if not joint.lower < joint.upper:
-        raise RobotDefinitionError(robot, tr("{where}: its lower limit must lie below its upper limit.", where=where))
+        raise RobotDefinitionError(robot, tr("{joint}: its lower limit must lie below its upper limit.", joint=where))
     if not joint.lower <= joint.home <= joint.upper:
-        raise RobotDefinitionError(robot, tr("{where}: its home must lie within its limits.", where=where))
+        raise RobotDefinitionError(robot, tr("{joint}: its home must lie within its limits.", joint=where))
 
 
 def _check_channels(robot: str, servos: tuple[Servo, ...], gripper: GripperServo | None) -> None:
@@ -280,5 +280,5 @@ def _check_channels(robot: str, servos: tuple[Servo, ...], gripper: GripperServo
     twice = {channel for channel in channels if channels.count(channel) > 1}
     if twice:
         raise RobotDefinitionError(
-            robot, tr("two servos on channel {twice}; each needs a channel of its own.", twice=min(twice))
+            robot, tr("two servos on channel {channel}; each needs a channel of its own.", channel=min(twice))
         )

@@ -94,18 +94,16 @@ def _where(channel: int) -> str:
 
 def _check_channel(channel: int) -> None:
     if not 0 <= channel < CHANNELS:
-        raise RobotDefinitionError(
-            _where(channel), tr("the controller's channels are 0 to {channels}.", channels=CHANNELS - 1)
-        )
+        raise RobotDefinitionError(_where(channel), tr("the controller's channels are 0 to {last}.", last=CHANNELS - 1))
 
 
 def _check_pulses(channel: int, *pulses_us: float) -> None:
     for pulse in pulses_us:
         if not SHORTEST_US <= pulse <= LONGEST_US:
             what = tr(
-                "a pulse of {pulse:g} µs; the controller's go from {shortest_us:g} to {longest_us:g} µs.",
+                "a pulse of {pulse:g} µs; the controller's go from {shortest:g} to {longest:g} µs.",
                 pulse=pulse,
-                shortest_us=SHORTEST_US,
-                longest_us=LONGEST_US,
+                shortest=SHORTEST_US,
+                longest=LONGEST_US,
             )
             raise RobotDefinitionError(_where(channel), what)

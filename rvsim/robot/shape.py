@@ -31,8 +31,8 @@ class CapsuleShape:
     finger: bool = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "start", frozen_array(tr("capsule start"), self.start, (3,)))
-        object.__setattr__(self, "end", frozen_array(tr("capsule end"), self.end, (3,)))
+        object.__setattr__(self, "start", frozen_array("capsule start", self.start, (3,)))
+        object.__setattr__(self, "end", frozen_array("capsule end", self.end, (3,)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,8 +53,8 @@ class BoxShape:
     finger: bool = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "center", frozen_array(tr("box center"), self.center, (3,)))
-        object.__setattr__(self, "size", frozen_array(tr("box size"), self.size, (3,)))
+        object.__setattr__(self, "center", frozen_array("box center", self.center, (3,)))
+        object.__setattr__(self, "size", frozen_array("box size", self.size, (3,)))
         if not np.all(self.size > 0.0):
             raise RobotDefinitionError("box", tr("every edge of a box must be longer than 0."))
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import ShapeError
-from rvsim.language import tr
 from rvsim.robot.arrays import FloatArray, frozen_array
 
 
@@ -41,7 +40,7 @@ class PiecewisePolynomial:
     def __post_init__(self) -> None:
         breaks, coefficients = np.array(self.breaks, np.float64), np.array(self.coefficients, np.float64)
         if coefficients.ndim != 3 or breaks.shape != (len(coefficients) + 1,) or not (np.diff(breaks) > 0.0).all():
-            raise ShapeError("breaks", tr("({count},), increasing", count=len(coefficients) + 1), breaks.shape)
+            raise ShapeError("breaks", f"({len(coefficients) + 1},), increasing", breaks.shape)
         object.__setattr__(self, "breaks", frozen_array("breaks", breaks, breaks.shape))
         object.__setattr__(self, "coefficients", frozen_array("coefficients", coefficients, coefficients.shape))
 

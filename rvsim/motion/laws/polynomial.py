@@ -50,7 +50,7 @@ def quintic_between(
 def _between(t0: float, t1: float, first: tuple[ArrayLike, ...], last: tuple[ArrayLike, ...]) -> PiecewisePolynomial:
     """The polynomial with these values of q, qd, … at both ends."""
     if not np.isfinite([t0, t1]).all() or t1 <= t0:
-        raise SettingError("t1", t1, tr("a time after t0 = {t0:g} s", t0=t0))
+        raise SettingError("t1", t1, tr("a time after t0 = {start:g} s", start=t0))
     n = max(np.atleast_1d(np.asarray(value)).shape[-1] for value in (*first, *last))
     known = len(first)
     T = t1 - t0

@@ -51,7 +51,7 @@ def quickest_along(
     lines = _lines(slopes, bends, np.tile(acceleration, 2))
     highest = _backwards(most, lines, steps)
     if not np.isfinite(highest).all():
-        raise SettingError("max_acceleration", "infinite", tr("finite for a joint that moves"))
+        raise SettingError("max_acceleration", tr("infinite"), tr("finite for a joint that moves"))
     return _in_time(s, _forwards(highest, lines, steps))
 
 

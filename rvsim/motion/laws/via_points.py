@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import ShapeError
-from rvsim.language import tr
 from rvsim.motion.laws.piecewise import PiecewisePolynomial
 from rvsim.motion.spline import knot_slopes
 from rvsim.robot.arrays import FloatArray
@@ -34,7 +33,7 @@ def spline_through(
     y = np.atleast_2d(np.asarray(poses, np.float64))
     least = 4 if ends == "not-a-knot" else 2
     if x.ndim != 1 or y.ndim != 2 or len(x) != len(y) or len(x) < least or not (np.diff(x) > 0.0).all():
-        raise ShapeError("times", tr("({count},), increasing", count=max(len(y), least)), x.shape)
+        raise ShapeError("times", f"({max(len(y), least)},), increasing", x.shape)
     slopes = knot_slopes(x, y, ends, np.broadcast_to(qd0, y.shape[1:]), np.broadcast_to(qd1, y.shape[1:]))
     return PiecewisePolynomial(x, _hermite_coefficients(np.diff(x)[:, None], y, slopes))
 
