@@ -185,7 +185,7 @@ def path_entry(name: str) -> NamedPath:
         UnknownNameError: no such path.
     """
     if name not in _BY_NAME:
-        raise UnknownNameError("path", name, tuple(dict.fromkeys((*path_names(), *SHAPE_KINDS))))
+        raise UnknownNameError(tr_later("path"), name, tuple(dict.fromkeys((*path_names(), *SHAPE_KINDS))))
     return _BY_NAME[name]
 
 

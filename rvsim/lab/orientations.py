@@ -18,6 +18,7 @@ from rvsim.errors import NoClosedFormError, UnknownNameError
 from rvsim.experiment import PathOrientation
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.inverse import nearest_feasible_poses
+from rvsim.language import tr_later
 from rvsim.motion import TOOL_DOWN, Path
 from rvsim.motion.path import radial_rotations
 from rvsim.robot import Robot
@@ -86,7 +87,7 @@ def oriented(
         UnknownNameError: no such orientation.
     """
     if orientation not in ORIENTATIONS:
-        raise UnknownNameError("orientation", orientation, ORIENTATIONS)
+        raise UnknownNameError(tr_later("orientation"), orientation, ORIENTATIONS)
     if orientation == "free" or robot.dof < _FEWEST_JOINTS_TO_TURN:
         return path.with_rotation(None)
     present = robot.home if q is None else np.asarray(q)

@@ -255,7 +255,7 @@ def in_plane(robot: Robot, task: TrajectoryTask, plane: str) -> TrajectoryTask:
         UnknownNameError: no such plane, or no flat shape.
     """
     if plane not in PLANES:
-        raise UnknownNameError("plane", plane, tuple(PLANES))
+        raise UnknownNameError(tr_later("plane"), plane, tuple(PLANES))
     if not is_flat(task):
         raise UnknownNameError(tr_later("flat shape"), task.name, FLAT_SHAPES)
     where = placement_of(robot, task)

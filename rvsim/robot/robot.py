@@ -231,7 +231,7 @@ class Robot:
         for tool in self.tools:
             if tool.name == self.tool_name:
                 return tool
-        raise UnknownNameError("tool", self.tool_name, [tool.name for tool in self.tools])
+        raise UnknownNameError(tr_later("tool"), self.tool_name, [tool.name for tool in self.tools])
 
     @property
     def T_flange_tool(self) -> FloatArray:

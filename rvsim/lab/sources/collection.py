@@ -11,6 +11,7 @@ from rvsim.lab.sources.source_002_errata import ERRATA_002
 from rvsim.lab.sources.source_003 import ERRATA_003
 from rvsim.lab.sources.source_004_kinematics import ERRATA_004_KINEMATICS
 from rvsim.lab.sources.source_004_motion import ERRATA_004_MOTION
+from rvsim.language import tr_later
 from rvsim.robot import Robot
 from rvsim.robot.edits import original_name
 
@@ -38,7 +39,7 @@ def erratum_of(key: str) -> Erratum:
         UnknownNameError: no such erratum.
     """
     if key not in _BY_KEY:
-        raise UnknownNameError("erratum", key, tuple(_BY_KEY))
+        raise UnknownNameError(tr_later("erratum"), key, tuple(_BY_KEY))
     return _BY_KEY[key]
 
 

@@ -40,7 +40,7 @@ def experiment_of(key: str) -> SourceExperiment:
     """
     by_key = _by_key()
     if key not in by_key:
-        raise UnknownNameError("experiment", key, tuple(by_key))
+        raise UnknownNameError(tr_later("experiment"), key, tuple(by_key))
     return by_key[key]
 
 
