@@ -15,6 +15,7 @@ from rvsim.lab.sources.experiments_others import (
     EXPERIMENTS_003,
     EXPERIMENTS_004,
 )
+from rvsim.language import tr_later
 
 SOURCE_TITLES = {
     "000": "Mitsubishi RV-M1",
