@@ -106,9 +106,17 @@ class RecoveryDialog(QDialog):
 
 def _words(leftover: Leftover) -> str:
     name = leftover.original.stem if leftover.original else tr("Untitled")
-    when = datetime.fromtimestamp(leftover.when).strftime("%Y-%m-%d %H:%M")
+    when = _date(leftover.when)
     try:
         arm = load_session(leftover.file).state.experiment.robot.title
     except RvsimError:
         arm = tr(_UNREADABLE)
     return f"{name}\n{arm}, {left_to_right(when)}"
+
+
+def _date(seconds: float) -> str:
+    """In words, also where a clock was wrong: not every system knows years before 1970 or after 9999."""
+    try:
+        return datetime.fromtimestamp(seconds).strftime("%Y-%m-%d %H:%M")
+    except (OSError, OverflowError, ValueError):
+        return tr("at an unknown time")
