@@ -153,11 +153,11 @@ class MassModel(QAbstractTableModel):
             return tr("{link}: nothing is known. Double-click or type to enter a number.", link=name)
         link = self._robot.masses[index.row()]
         if is_unsaid(link, COLUMNS[index.column() - 1].key):
-            return tr("{link}: not in the source ({source}), taken as 0.", link=name, source=link.source)
+            return tr("{link}: not in the source ({source}), taken as 0.", link=name, source=tr(link.source))
         if index.column() > 0:
             number = self._text(index, whole=True).replace("-", "\u2212")
             name = f"{name}: {left_to_right(number + self._shown(index.column()).suffix)}"
-        source = link.source or tr("its robot file")
+        source = tr(link.source) or tr("its robot file")
         origin = tr("Assumed: {source}.", source=source) if link.assumed else tr("From: {source}.", source=source)
         return f"{name}. {origin}"
 

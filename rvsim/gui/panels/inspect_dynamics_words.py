@@ -57,7 +57,7 @@ def mass_note(robot: Robot) -> str:
     if any(link.assumed for link in robot.masses):
         parts.append(tr("Italic: assumed."))
     parts += _unsaid_note(robot)
-    sources = dict.fromkeys(link.source for link in robot.masses if link.source)
+    sources = dict.fromkeys(tr(link.source) for link in robot.masses if link.source)
     if sources:
         parts.append(tr("Source: {sources}.", sources=tr("; ").join(sources)))
     return " ".join([*parts, tr("Double-click a number to change it: the arm follows on a copy of your own.")])

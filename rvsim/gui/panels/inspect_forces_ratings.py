@@ -141,7 +141,7 @@ class RatingModel(QAbstractTableModel):
             return tr("The drive of “{joint}”: no rating is known. Double-click or type to enter one.", joint=name)
         number = f"{rating.value * shown.factor:.12g}{shown.suffix}"
         sentence = tr("The drive of “{joint}”: {rating}.", joint=name, rating=number)
-        source = rating.source or tr("its robot file")
+        source = tr(rating.source) or tr("its robot file")
         said = {
             "source": tr("From: {source}.", source=source),
             "assumed": tr("Assumed: {source}.", source=source),

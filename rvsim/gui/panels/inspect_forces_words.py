@@ -159,7 +159,7 @@ def rating_text(row: TorqueRow, robot: Robot, joint: int, preferences: Preferenc
         torque=torque,
         share=share_text(row),
         rating=format_quantity(row.rating, kind, preferences),
-        source=row.rating_source or tr("robot file"),
+        source=tr(row.rating_source) or tr("robot file"),
     )
 
 

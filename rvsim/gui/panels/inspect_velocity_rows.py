@@ -168,7 +168,7 @@ class JointRows(QWidget):
         shown, share = display(kind, self._preferences), abs(value) / top.value
         percent = f"{100.0 * share:.0f} %" if 100.0 * share < _MOST_SHOWN else f"> {_MOST_SHOWN:.0f} %"
         most = format_number(top.value * shown.factor, 0 if shown.factor > 1.0 else 2)
-        whole = {"percent": percent, "most": f"{most}{shown.suffix}", "source": top.source}
+        whole = {"percent": percent, "most": f"{most}{shown.suffix}", "source": tr(top.source)}
         if top.assumed:
             tip = tr("{percent} of {most}, assumed: {source}.", **whole)
         else:
