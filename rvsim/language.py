@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import gettext
 import string
+import unicodedata
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -30,8 +31,8 @@ LANGUAGES = {
 }
 
 # Unicode's isolates (UAX #9): what stands between them is laid out by itself, so a minus stays before its number.
-_ISOLATE, _ISOLATE_LEFT_TO_RIGHT, _END = "\u2068", "\u2066", "\u2069"
-_STRIPPED = str.maketrans("", "", _ISOLATE + _ISOLATE_LEFT_TO_RIGHT + _END)
+_ISOLATE, _ISOLATE_LEFT_TO_RIGHT, _ISOLATE_RIGHT_TO_LEFT, _END = "\u2068", "\u2066", "\u2067", "\u2069"
+_STRIPPED = str.maketrans("", "", _ISOLATE + _ISOLATE_LEFT_TO_RIGHT + _ISOLATE_RIGHT_TO_LEFT + _END)
 
 
 class Text(str):
@@ -155,9 +156,27 @@ def listed(words: Sequence[str]) -> str:
     return tr("{others} and {last}", others=tr(", ").join(words[:-1]), last=words[-1])
 
 
+def sentences(*said: str, between: str = " ") -> str:
+    """Sentences one after the other, as one text that `again` and `in_english` can say."""
+    numbered = {f"s{number}": one for number, one in enumerate(said)}
+    return tr("{between}".join(f"{{{name}}}" for name in numbered), between=between, **numbered)
+
+
 def left_to_right(text: str) -> str:
     """Numbers and formulas, kept in their order where the words around them are written from right to left."""
     return f"{_ISOLATE_LEFT_TO_RIGHT}{text}{_END}" if text and _spoken[0].right_to_left else text
+
+
+def has_right_to_left(text: str) -> bool:
+    """Whether there are letters in a text that are written from right to left."""
+    return any(unicodedata.bidirectional(letter) in ("R", "AL") for letter in text)
+
+
+def in_its_order(text: str) -> str:
+    """A text alone, for instance in a table that has another direction: words from right to left, numbers not."""
+    if not has_right_to_left(text):
+        return left_to_right(text)
+    return f"{_ISOLATE_RIGHT_TO_LEFT}{text}{_END}" if _spoken[0].right_to_left else text
 
 
 def without_isolates(text: str) -> str:

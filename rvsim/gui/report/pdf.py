@@ -12,9 +12,9 @@ from rvsim.errors import FileWriteError
 from rvsim.gui.report import typography as faces
 from rvsim.gui.report.pages import Page, paginated
 from rvsim.gui.report.strips import Strip, section_strips, text_strips
-from rvsim.gui.report.typography import MUTED, RULE, Text, text_width
+from rvsim.gui.report.typography import MUTED, RULE, Text, aside, text_width
 from rvsim.lab.report.values import Cover, Document
-from rvsim.language import tr
+from rvsim.language import tr, without_isolates
 
 PAGE = (595.0, 842.0)  # A4 [pt]
 MARGIN = (71.0, 74.0, 71.0, 70.0)  # left, top, right, bottom
@@ -55,15 +55,21 @@ class Sheets:
         room = WIDTH - author.width - 20.0
         title = Text(_shortened(cover.title, room), faces.SMALL, WIDTH)
         title.draw(painter, MARGIN[0], y)
-        author.draw(painter, MARGIN[0] + WIDTH - author.width, y)
+        self._at_the_end(painter, author, y)
         painter.setPen(QPen(MUTED, 0.4))
         painter.drawLine(QPointF(MARGIN[0], y + 14.0), QPointF(MARGIN[0] + WIDTH, y + 14.0))
 
     def _footer(self, painter: QPainter, number: int) -> None:
         y = PAGE[1] - MARGIN[3] + 26.0
         page = Text(tr("Page {number} of {count}", number=number + 1, count=len(self.pages)), faces.SMALL, 100.0)
-        page.draw(painter, MARGIN[0] + WIDTH - page.width, y)
-        Text(self.document.cover.date, faces.SMALL, 0.5 * WIDTH).draw(painter, MARGIN[0], y)
+        self._at_the_end(painter, page, y)
+        Text(self.document.cover.date, faces.SMALL, WIDTH).draw(painter, MARGIN[0], y)
+
+    @staticmethod
+    def _at_the_end(painter: QPainter, text: Text, y: float) -> None:
+        """On the side of the page where lines end."""
+        left = aside(WIDTH, WIDTH - text.width, text.width)
+        text.draw(painter, MARGIN[0] + left - text.left, y)
 
 
 def _shortened(text: str, width: float) -> str:
@@ -99,7 +105,7 @@ def write_pdf(sheets: Sheets, path: Path) -> Iterator[None]:
     """
     writer = QPdfWriter(str(path))
     cover = sheets.document.cover
-    writer.setTitle(cover.title)
+    writer.setTitle(without_isolates(cover.title))
     writer.setAuthor(cover.author)
     writer.setCreator("rvsim")
     writer.setResolution(_RESOLUTION)

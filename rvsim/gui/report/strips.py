@@ -12,7 +12,7 @@ from PySide6.QtSvg import QSvgRenderer
 from rvsim.gui.formula import Typeset, plain_text, typeset
 from rvsim.gui.report import typography as faces
 from rvsim.gui.report.artist import painted
-from rvsim.gui.report.typography import ACCENT, INK, Face, Text
+from rvsim.gui.report.typography import ACCENT, INK, Face, Text, aside
 from rvsim.lab.report.chart import Chart
 from rvsim.lab.report.chart_svg import chart_height, chart_svg
 from rvsim.lab.report.values import (
@@ -33,6 +33,7 @@ from rvsim.lab.report.values import (
 FORMULA_SIZE = 10.5
 _SET_AT = 16.0  # what formulas are set at
 _INDENT, _LABEL, _GAP, _APART = 20.0, 44.0, 9.0, 28.0
+_LABEL_ROOM, _LABEL_UP = 60.0, 7.4
 _PICTURE_SHARE = 0.82  # of the width
 _FACES = {"body": faces.BODY, "note": faces.NOTE, "lead": faces.LEAD, "own": faces.BODY}
 
@@ -65,7 +66,7 @@ def section_strips(section: Section, width: float) -> Iterator[Strip]:
     """The title of a section, then all its blocks."""
     words = (Run(f"{section.number}  "), Run(section.title))
     title = Text(words, faces.SECTION, width)
-    yield Strip(title.height, _section_title(section, title), 26.0, keep=True)
+    yield Strip(title.height, _section_title(section, title, width), 26.0, keep=True)
     for block, following in zip(section.blocks, (*section.blocks[1:], None), strict=True):
         strips = list(block_strips(block, width))
         if _belong_together(block, following):
@@ -80,8 +81,8 @@ def _belong_together(block: Block, following: Block | None) -> bool:
     return isinstance(block, Paragraph) and isinstance(following, _LED_TO)
 
 
-def _section_title(section: Section, title: Text) -> Draw:
-    number = Text(section.number, faces.SECTION._replace(color=ACCENT), 60.0)
+def _section_title(section: Section, title: Text, width: float) -> Draw:
+    number = Text(section.number, faces.SECTION._replace(color=ACCENT), width)
 
     def draw(painter: QPainter, x: float, y: float) -> None:
         title.draw(painter, x, y)
@@ -119,11 +120,12 @@ def text_strips(
     text = Text(words, face, width - indent, justified=justified)
     for number in range(text.count):
         keep = text.count > 1 and number in (0, text.count - 2)
-        yield Strip(text.leading, _line(text, number, indent), above if number == 0 else 0.0, keep)
+        left = aside(width, indent, text.room)
+        yield Strip(text.leading, _line(text, number, left), above if number == 0 else 0.0, keep)
 
 
-def _line(text: Text, number: int, indent: float) -> Draw:
-    return lambda painter, x, y: text.draw(painter, x + indent, y, number, number + 1)
+def _line(text: Text, number: int, left: float) -> Draw:
+    return lambda painter, x, y: text.draw(painter, x + left, y, number, number + 1)
 
 
 def _items(block: Items, width: float) -> Iterator[Strip]:
@@ -132,12 +134,12 @@ def _items(block: Items, width: float) -> Iterator[Strip]:
     for mark, item in zip(marks, block.items, strict=True):
         sign = Text(mark, faces.BODY, indent)
         for number, strip in enumerate(text_strips(item, faces.BODY, width, above=3.0, indent=indent)):
-            yield strip if number else strip._replace(draw=_both(sign, strip.draw))
+            yield strip if number else strip._replace(draw=_both(sign, aside(width, 3.0, indent), 0.0, strip.draw))
 
 
-def _both(sign: Text, rest: Draw) -> Draw:
+def _both(sign: Text, left: float, down: float, rest: Draw) -> Draw:
     def draw(painter: QPainter, x: float, y: float) -> None:
-        sign.draw(painter, x + 3.0, y)
+        sign.draw(painter, x + left, y + down)
         rest(painter, x, y)
 
     return draw
@@ -185,15 +187,30 @@ def _formula(block: Formula, width: float) -> Iterator[Strip]:
         for number, part in enumerate(block.parts)
     ]
     lines = _flowed(parts, width - left, _GAP, _INDENT)
+    begins = [left + (_INDENT if number else 0.0) for number in range(len(lines))]
+    shift = _shift(lines, begins, _GAP, width)
+    label = Text(block.label.strip(), faces.NOTE, _LABEL_ROOM)
     for number, line in enumerate(lines):
-        begin, label = (left, block.label.strip()) if number == 0 else (left + _INDENT, "")
-        yield _formula_line(begin, line, label, _GAP, keep=number < len(lines) - 1)
+        strip = _formula_line(begins[number] + shift, line, _GAP, keep=number < len(lines) - 1)
+        raised = max(part.ascent for part in line) - _LABEL_UP
+        named = _both(label, aside(width, _INDENT, label.room), raised, strip.draw)
+        yield strip if number else strip._replace(draw=named)
 
 
 def _formulas(block: Formulas, width: float) -> Iterator[Strip]:
     parts = [set_formula(part, FORMULA_SIZE, width - _INDENT) for part in block.parts]
-    for line in _flowed(parts, width - _INDENT, _APART, 0.0):
-        yield _formula_line(_INDENT, line, "", _APART)
+    lines = _flowed(parts, width - _INDENT, _APART, 0.0)
+    begin = _INDENT + _shift(lines, [_INDENT] * len(lines), _APART, width)
+    for line in lines:
+        yield _formula_line(begin, line, _APART)
+
+
+def _shift(lines: list[list[Set]], begins: list[float], gap: float, width: float) -> float:
+    """How far lines of formulas move together to where reading begins; each of them is read from the left."""
+    if not lines:
+        return 0.0
+    ends = [begin + sum(part.width + gap for part in line) - gap for begin, line in zip(begins, lines, strict=True)]
+    return aside(width, min(begins), max(ends) - min(begins)) - min(begins)
 
 
 def _flowed(parts: list[Set], width: float, gap: float, further: float) -> list[list[Set]]:
@@ -210,13 +227,10 @@ def _flowed(parts: list[Set], width: float, gap: float, further: float) -> list[
     return lines
 
 
-def _formula_line(begin: float, line: list[Set], label: str, gap: float, *, keep: bool = False) -> Strip:
+def _formula_line(begin: float, line: list[Set], gap: float, *, keep: bool = False) -> Strip:
     ascent, descent = max(part.ascent for part in line), max(part.descent for part in line)
-    name = Text(label, faces.NOTE, 60.0)
 
     def draw(painter: QPainter, x: float, y: float) -> None:
-        if label:
-            name.draw(painter, x + _INDENT, y + ascent - 7.4)
         at = x + begin
         for part in line:
             part.draw(painter, at, y + ascent)

@@ -10,7 +10,7 @@ from PySide6.QtGui import QPainter, QPen
 
 from rvsim.gui.report import typography as faces
 from rvsim.gui.report.strips import Set, Strip, caption_runs, set_formula, text_strips
-from rvsim.gui.report.typography import RULE, Face, Text, text_width
+from rvsim.gui.report.typography import RULE, Face, Text, aside, from_right, text_width
 from rvsim.lab.report.values import Column, Run, Table, Words, runs
 
 _PAD, _LEAST_PAD = 7.0, 2.5  # at each side of a cell
@@ -22,12 +22,17 @@ _SMALL = 14  # rows
 
 
 class _Grid(NamedTuple):
-    """Where the columns are: left edges and widths without their padding; how much smaller than usual all of it is."""
+    """Where the columns are: left edges and widths without their padding; how much smaller than usual all of it is.
+
+    `left` is where the table begins; `mirrored`: its columns are read from right to left.
+    """
 
     lefts: tuple[float, ...]
     widths: tuple[float, ...]
     width: float
     scale: float
+    left: float = 0.0
+    mirrored: bool = False
 
 
 def table_strips(table: Table, width: float) -> Iterator[Strip]:
@@ -63,7 +68,7 @@ def _rows(table: Table, grid: _Grid, head: Strip) -> Iterator[Strip]:
 
 
 def _rule(grid: _Grid) -> Strip:
-    return Strip(_THICK, lambda painter, x, y: _line(painter, x, y, grid.width, _THICK))
+    return Strip(_THICK, lambda painter, x, y: _line(painter, x + grid.left, y, grid.width, _THICK))
 
 
 def _line(painter: QPainter, x: float, y: float, width: float, thickness: float) -> None:
@@ -89,7 +94,11 @@ def _grid(table: Table, width: float) -> _Grid:
     for each in widths:
         lefts.append(at + pad)
         at += each + 2.0 * pad
-    return _Grid(tuple(lefts), tuple(widths), used, scale)
+    left = aside(width, 0.0, used)
+    mirrored = from_right() and not table.of_numbers
+    if mirrored:
+        lefts = [used - begin - each for begin, each in zip(lefts, widths, strict=True)]
+    return _Grid(tuple(left + begin for begin in lefts), tuple(widths), used, scale, left, mirrored)
 
 
 def _natural(index: int, column: Column, table: Table) -> float:
@@ -128,10 +137,10 @@ def _row(
     def draw(painter: QPainter, x: float, y: float) -> None:
         for thickness, at in ((rules[0], y), (rules[1], y + height)):
             if thickness:
-                _line(painter, x, at, grid.width, thickness)
+                _line(painter, x + grid.left, at, grid.width, thickness)
         for cell, column, left, width in zip(made, columns, grid.lefts, grid.widths, strict=True):
             free = width - cell.width
-            shift = {"left": 0.0, "center": 0.5 * free, "right": free}[column.align]
+            shift = {"left": free if grid.mirrored else 0.0, "center": 0.5 * free, "right": free}[column.align]
             _draw_cell(cell, painter, x + left + shift, y + 0.5 * air, height - air)
 
     return Strip(height, draw)
@@ -150,6 +159,6 @@ def _height(cell: Text | Set) -> float:
 
 def _draw_cell(cell: Text | Set, painter: QPainter, x: float, y: float, height: float) -> None:
     if isinstance(cell, Text):
-        cell.draw(painter, x, y)
+        cell.draw(painter, x - cell.left, y)
     else:
         cell.draw(painter, x, y + 0.5 * (height + cell.ascent - cell.descent))

@@ -21,28 +21,16 @@ from PySide6.QtGui import (
 
 from rvsim.gui.text_box import wrap_mode
 from rvsim.lab.report.values import Run, Words, runs
-from rvsim.language import tr, tr_later
+from rvsim.language import has_right_to_left, language
 
 FINE = 20.0  # text is set in twentieths of a point, so that rounding is not seen
 INK, MUTED, RULE = QColor("#1D2733"), QColor("#566373"), QColor("#1D2733")
 ACCENT = QColor("#2F55D4")
 _COLORS = {"good": QColor("#00664B"), "warning": QColor("#8A4B00"), "bad": QColor("#B3261E"), "muted": MUTED}
-_SANS = [
-    tr_later("Helvetica Neue"),
-    "Helvetica",
-    "Arial",
-    tr_later("Liberation Sans"),
-    tr_later("Nimbus Sans"),
-    tr_later("DejaVu Sans"),
-]
-_MONO = [
-    tr_later("DejaVu Sans Mono"),
-    "Consolas",
-    "Menlo",
-    tr_later("Liberation Mono"),
-    tr_later("Courier New"),
-    "monospace",
-]
+_ARABIC = "Noto Sans Arabic UI"  # which comes with rvsim, and has no other letters
+_SANS = ["Helvetica Neue", "Helvetica", "Arial", "Liberation Sans", "Nimbus Sans", _ARABIC, "DejaVu Sans"]
+_SERIF = ["Times New Roman", "Liberation Serif", "Nimbus Roman", _ARABIC, "DejaVu Serif"]
+_MONO = ["DejaVu Sans Mono", "Consolas", "Menlo", "Liberation Mono", "Courier New", "monospace", _ARABIC]
 
 
 class Face(NamedTuple):
@@ -73,14 +61,7 @@ def serif_families() -> list[str]:
     with resources.as_file(resources.files("ziamath") / "fonts" / "STIXTwoMath-Regular.ttf") as file:
         number = QFontDatabase.addApplicationFont(str(file))
     own = QFontDatabase.applicationFontFamilies(number) if number >= 0 else []
-    return [
-        tr("STIX Two Text"),
-        *own,
-        tr("Times New Roman"),
-        tr("Liberation Serif"),
-        tr("Nimbus Roman"),
-        tr("DejaVu Serif"),
-    ]
+    return ["STIX Two Text", *own, *_SERIF]
 
 
 @cache
@@ -100,22 +81,43 @@ def font(face: Face, style: str = "", scale: float = FINE) -> QFont:
     return made
 
 
+def from_right() -> bool:
+    """Whether the pages are laid out from right to left."""
+    return language().right_to_left
+
+
+def aside(whole: float, left: float, width: float) -> float:
+    """Where something of a width begins on the page, counted from its left edge: `left` is from where reading begins.
+
+    All that is placed beside or inside something else is placed by this, so that a page can be laid out both ways.
+    """
+    return whole - left - width if from_right() else left
+
+
 class Text:
-    """Words in lines of a width."""
+    """Words in lines of a width, at the side of it where reading begins."""
 
     def __init__(self, words: Words, face: Face, width: float, *, justified: bool = False, scale: float = 1.0) -> None:
-        self.face, self._scale = face, scale
+        self.face, self._scale, self.room = face, scale, width
         pieces = [run for run in runs(words) if run.text]
         text = "".join(run.text for run in pieces)
         self._layout = QTextLayout(text, font(face))
-        option = QTextOption(Qt.AlignmentFlag.AlignJustify if justified else Qt.AlignmentFlag.AlignLeft)
+        side = Qt.AlignmentFlag.AlignRight if from_right() else Qt.AlignmentFlag.AlignLeft
+        option = QTextOption(Qt.AlignmentFlag.AlignJustify if justified else side)
         option.setWrapMode(wrap_mode(text))
+        if from_right():
+            option.setTextDirection(_direction(text))
         self._layout.setTextOption(option)
         self._layout.setFormats(_formats(pieces, face))
         self._layout.beginLayout()
         while (line := self._layout.createLine()).isValid():
             line.setLineWidth(width * FINE / scale)
         self._layout.endLayout()
+
+    @property
+    def left(self) -> float:
+        """From where it is drawn to the left end of its longest line."""
+        return aside(self.room, 0.0, self.width)
 
     @property
     def count(self) -> int:
@@ -149,6 +151,11 @@ class Text:
             baseline = (row + 0.5) * self.face.leading + 0.34 * self.face.size
             line.draw(painter, QPointF(-line.x(), baseline * FINE - line.ascent() - line.y()))
         painter.restore()
+
+
+def _direction(text: str) -> Qt.LayoutDirection:
+    """On a page that is read from right to left numbers and formulas are not."""
+    return Qt.LayoutDirection.RightToLeft if has_right_to_left(text) else Qt.LayoutDirection.LeftToRight
 
 
 def _formats(pieces: list[Run], face: Face) -> list[QTextLayout.FormatRange]:

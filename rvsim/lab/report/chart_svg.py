@@ -8,7 +8,7 @@ from html import escape
 import numpy as np
 
 from rvsim.lab.report.chart import Axis, Chart, Curve, axis, thinned, time_axis, value_axis
-from rvsim.language import tr, tr_later
+from rvsim.language import in_its_order, language
 from rvsim.robot.arrays import FloatArray
 
 WIDTH = 453.0
@@ -16,7 +16,7 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 50.0, 8.0, 18.0, 30.0
 _LEGEND_LEFT, _LEGEND_ROW, _LEGEND_STROKE = 24.0, 12.0, 18.0
 _DASHES = ("", *(f' stroke-dasharray="{d}"' for d in ("6 3", "2 2", "8 2.5 2 2.5", "8 2 2 2 2 2")))
 _INK, _MUTED, _GRID = "#1D2733", "#4A5665", "#DFE5ED"
-FONTS = tr_later("Helvetica, Arial, Liberation Sans, Nimbus Sans, DejaVu Sans, sans-serif")
+FONTS = "Helvetica, Arial, Liberation Sans, Nimbus Sans, Noto Sans Arabic UI, DejaVu Sans, sans-serif"
 _HATCH, _HATCH_STEP = 3.0, 9.0
 
 
@@ -33,7 +33,7 @@ def chart_svg(chart: Chart, fonts: str = FONTS) -> str:
     names = (_legend_entry(chart.height + _LEGEND_ROW * row, left, curve) for row, left, curve in legend)
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH:g} {height:g}" width="{WIDTH:g}" '
-        f'height="{height:g}" font-family="{escape(fonts)}" font-size="8" role="img">'
+        f'height="{height:g}" font-family="{escape(fonts)}" font-size="8" role="img"{_direction()}>'
         f"<title>{escape(chart.title)}</title>{''.join(body)}{''.join(names)}</svg>"
     )
 
@@ -41,6 +41,11 @@ def chart_svg(chart: Chart, fonts: str = FONTS) -> str:
 def chart_height(chart: Chart) -> float:
     """How high `chart_svg` is [pt]."""
     return chart.height + _LEGEND_ROW * (1 + max((row for row, _, _ in _legend(chart)), default=-1))
+
+
+def _direction() -> str:
+    """Curves run from left to right, also on a page that does not."""
+    return ' direction="ltr"' if language().right_to_left else ""
 
 
 class _Frame:
@@ -76,7 +81,9 @@ def _line(x1: float, y1: float, x2: float, y2: float, color: str, width: float, 
 
 
 def _text(x: float, y: float, text: str, anchor: str = "start", color: str = _INK, more: str = "") -> str:
-    return f'<text x="{x:.2f}" y="{y:.2f}" text-anchor="{anchor}" fill="{color}"{more}>{escape(text)}</text>'
+    return (
+        f'<text x="{x:.2f}" y="{y:.2f}" text-anchor="{anchor}" fill="{color}"{more}>{escape(in_its_order(text))}</text>'
+    )
 
 
 def _grid(frame: _Frame) -> Iterator[str]:
@@ -107,7 +114,7 @@ def _marks(chart: Chart, frame: _Frame) -> Iterator[str]:
     for mark in chart.marks:
         if frame.x.low < mark < frame.x.high:
             place = float(frame.across(np.array(mark)))
-            yield _line(place, frame.top, place, frame.bottom, _MUTED, 0.6, tr(' stroke-dasharray="3 2"'))
+            yield _line(place, frame.top, place, frame.bottom, _MUTED, 0.6, ' stroke-dasharray="3 2"')
 
 
 def _curves(chart: Chart, frame: _Frame) -> Iterator[str]:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rvsim.lab.report.figures import Measures, counted, scientific, sentence_list
+from rvsim.lab.report.figures import Measures, number_word, scientific, within_limits_words
 from rvsim.lab.report.section_end import end_section
 from rvsim.lab.report.section_inverse import inverse_section
 from rvsim.lab.report.section_jacobian import jacobian_section
@@ -21,7 +21,7 @@ from rvsim.lab.report.section_torques import torques_section
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Cover, Document, Paragraph, Section, numbered
 from rvsim.lab.sources import errata
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn, without_isolates
 
 
 class Part(NamedTuple):
@@ -104,35 +104,30 @@ def _inverse_words(study: Study) -> list[str]:
     if study.inverse is None:
         return []
     count, within = len(study.inverse.branches), sum(branch.within_limits for branch in study.inverse.branches)
-    poses = counted(count, tr("joint pose leads"), tr("joint poses lead"))
-    verdict = (
-        tr("{counted} within", counted=counted(within, tr("of them"), tr("of them")))
-        if count > 1
-        else "within"
-        if within
-        else "outside"
+    leading = trn(
+        "For the arm’s task {count} joint pose leads there.",
+        "For the arm’s task {count} joint poses lead there.",
+        count,
+        count=number_word(count),
     )
-    return [tr("For the arm’s task {poses} there, {verdict} the limits.", poses=poses, verdict=verdict)]
+    return [leading, within_limits_words(within, count)] if count else [leading]
 
 
 def _path_words(study: Study, measures: Measures) -> list[str]:
     tracking = study.tracking
     if tracking is None:
         return []
-    title = tracking.path.title or tracking.path.name
-    reached = tr(
-        "{reached_count:.0f} % of the {samples} points",
-        reached_count=100.0 * tracking.reached_count / tracking.samples,
-        samples=tracking.samples,
-    )
+    title = tr(tracking.path.title or tracking.path.name)
     if tracking.rms is None:
         return [tr("Of the path “{title}” no point can be reached.", title=title)]
     rms = scientific(tracking.rms * measures.length.factor)
     return [
         tr(
-            "On the path “{title}” it reaches {reached}, with an RMS deviation of {rms} {unit}.",
+            "On the path “{title}” it reaches {percent:.0f} % of the {count} points, with an RMS deviation of "
+            "{rms} {unit}.",
             title=title,
-            reached=reached,
+            percent=100.0 * tracking.reached_count / tracking.samples,
+            count=tracking.samples,
             rms=rms,
             unit=measures.length.unit,
         )
@@ -162,8 +157,11 @@ def _measured_words(study: Study, measures: Measures) -> list[str]:
 
 def title_of(study: Study) -> str:
     """A title to begin with: the arm and what was done with it."""
-    done = [
-        *(["path"] if study.tracking is not None else ["pose"]),
-        *([tr("run on the arm")] if study.recording is not None and not study.recording.empty else []),
-    ]
-    return f"{study.robot.title}: {sentence_list(done)}"
+    robot, on_path = study.robot.title, study.tracking is not None
+    if study.recording is None or study.recording.empty:
+        title = tr("{robot}: path", robot=robot) if on_path else tr("{robot}: pose", robot=robot)
+    elif on_path:
+        title = tr("{robot}: path and run on the arm", robot=robot)
+    else:
+        title = tr("{robot}: pose and run on the arm", robot=robot)
+    return without_isolates(title)

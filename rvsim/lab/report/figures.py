@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rvsim.lab.sentences import Units
-from rvsim.language import tr
+from rvsim.language import left_to_right, tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.units import degrees_from_radians, millimetres_from_metres
@@ -34,7 +34,7 @@ class Measure:
     def amount(self, value: float) -> str:
         """The number with its unit."""
         space = "" if self.unit == "°" else " "
-        return f"{self.text(value)}{space}{self.unit}" if self.unit else self.text(value)
+        return left_to_right(f"{self.text(value)}{space}{self.unit}" if self.unit else self.text(value))
 
     def per(self, below: str) -> Measure:
         """The rate of it: "°/s"."""
@@ -55,8 +55,8 @@ class Measures:
     def __init__(self, robot: Robot, units: Units) -> None:
         self.robot, self.units = robot, units
         self.angle = _ANGLES[units.angle]
-        self.length = Measure(1.0, "units", 3) if robot.length_unit == "unit" else _LENGTHS[units.length]
-        self.metre = "units" if robot.length_unit == "unit" else "m"  # what Jacobians are written in
+        self.length = Measure(1.0, tr("units"), 3) if robot.length_unit == "unit" else _LENGTHS[units.length]
+        self.metre = tr("units") if robot.length_unit == "unit" else "m"  # what Jacobians are written in
 
     def joint(self, index: int) -> Measure:
         """Of joint `index` (from 0)."""
@@ -143,12 +143,27 @@ def subscript(index: int) -> str:
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
-def counted(number: int, one: str, many: str) -> str:
-    """ "one branch", "four branches"."""
-    words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
-    return f"{words[number] if number < len(words) else number} {one if number == 1 else many}"
+_NUMBERS = (
+    tr_later("no"), tr_later("one"), tr_later("two"), tr_later("three"), tr_later("four"), tr_later("five"),
+    tr_later("six"), tr_later("seven"), tr_later("eight"), tr_later("nine"), tr_later("ten"), tr_later("eleven"),
+    tr_later("twelve"),
+)  # fmt: skip
 
 
-def sentence_list(parts: Sequence[str]) -> str:
-    """ "a, b and c"."""
-    return parts[0] if len(parts) == 1 else tr("{parts} and {parts2}", parts=", ".join(parts[:-1]), parts2=parts[-1])
+def number_word(count: int) -> str:
+    """ "four"; larger ones as digits."""
+    return tr(_NUMBERS[count]) if count < len(_NUMBERS) else str(count)
+
+
+def within_limits_words(within: int, count: int) -> str:
+    """How many of some solutions lie within the limits, as a sentence."""
+    if count == 1:
+        return tr("It lies within the limits.") if within else tr("It does not lie within the limits.")
+    if not within:
+        return tr("None of them lies within the limits.")
+    return trn(
+        "Of these, {count} lies within the limits.",
+        "Of these, {count} lie within the limits.",
+        within,
+        count=number_word(within),
+    )

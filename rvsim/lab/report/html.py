@@ -26,7 +26,7 @@ from rvsim.lab.report.values import (
     Words,
     runs,
 )
-from rvsim.language import tr
+from rvsim.language import in_its_order, language, tr
 
 _TOTAL = ' class="total"'
 
@@ -50,9 +50,10 @@ def html_page(document: Document, artist: Artist) -> str:
 
 def html_parts(document: Document, artist: Artist) -> Iterator[str]:
     """The same, one block at a time: drawing takes a while."""
-    cover = document.cover
+    cover, spoken = document.cover, language()
+    direction = ' dir="rtl"' if spoken.right_to_left else ""
     yield (
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8"/>\n'
+        f'<!DOCTYPE html>\n<html lang="{spoken.code}"{direction}>\n<head>\n<meta charset="utf-8"/>\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1"/>\n'
         f"<title>{escape(cover.title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n"
     )
@@ -67,7 +68,7 @@ def _head(document: Document) -> str:
     who = " · ".join(f'<span dir="auto">{escape(text)}</span>' for text in (cover.author, cover.date) if text)
     notes = "".join(f'<p class="own" dir="auto">{escape(line)}</p>\n' for line in _lines(cover.notes))
     return (
-        f'<header>\n<p class="kind">Laboratory report</p>\n<h1 dir="auto">{escape(cover.title)}</h1>\n'
+        f'<header>\n<p class="kind">{escape(tr("Laboratory report"))}</p>\n<h1 dir="auto">{escape(cover.title)}</h1>\n'
         f'<p class="who">{who}</p>\n{notes}</header>\n'
     )
 
@@ -93,12 +94,13 @@ def _run(run: Run, artist: Artist) -> str:
         return artist.formula(run.text)
     tag = {"": "", "bold": "b", "code": "code"}.get(run.style)
     if tag is None:
-        return f'<span class="{run.style}">{escape(run.text)}</span>'
-    return f"<{tag}>{escape(run.text)}</{tag}>" if tag else escape(run.text)
+        return f'<span class="{run.style}">{escape(in_its_order(run.text))}</span>'
+    text = escape(in_its_order(run.text))
+    return f"<{tag}>{text}</{tag}>" if tag else text
 
 
 def _paragraph(block: Paragraph, artist: Artist) -> str:
-    name = "" if block.role == "body" else tr(' class="{role}"', role=block.role)
+    name = "" if block.role == "body" else f' class="{block.role}"'
     return f"<p{name}>{_words(block.words, artist)}</p>\n"
 
 
@@ -116,11 +118,17 @@ def _items(block: Items, artist: Artist) -> str:
 
 def _formula(block: Formula, artist: Artist) -> str:
     label = f'<span class="label">{escape(block.label)}</span>' if block.label else ""
-    return f'<div class="formula">{label}{" ".join(artist.formula(part) for part in block.parts)}</div>\n'
+    return f'<div class="formula">{label}{_parts(block, artist)}</div>\n'
 
 
 def _formulas(block: Formulas, artist: Artist) -> str:
-    return f'<div class="formula">{" ".join(artist.formula(part) for part in block.parts)}</div>\n'
+    return f'<div class="formula">{_parts(block, artist)}</div>\n'
+
+
+def _parts(block: Formula | Formulas, artist: Artist) -> str:
+    """Formulas are written from left to right, also on a page that is not."""
+    parts = " ".join(artist.formula(part) for part in block.parts)
+    return f'<span class="parts" dir="ltr">{parts}</span>' if language().right_to_left else parts
 
 
 def _table(block: Table, artist: Artist) -> str:
@@ -132,9 +140,14 @@ def _table(block: Table, artist: Artist) -> str:
     )
     note = f'<p class="note">{escape(block.note)}</p>\n' if block.note else ""
     return (
-        f'<figure class="table"><figcaption>{_caption(block.caption)}</figcaption><div class="scroll"><table>'
+        f'<figure class="table"><figcaption>{_caption(block.caption)}</figcaption>'
+        f'<div class="scroll"><table{_direction(block)}>'
         f"<thead><tr>{head}</tr></thead>\n<tbody>{rows}</tbody></table></div>{note}</figure>\n"
     )
+
+
+def _direction(block: Table) -> str:
+    return ' dir="ltr"' if block.of_numbers and language().right_to_left else ""
 
 
 def _cells(row: tuple[Words, ...], columns: tuple[Column, ...], artist: Artist) -> str:
@@ -144,7 +157,7 @@ def _cells(row: tuple[Words, ...], columns: tuple[Column, ...], artist: Artist) 
 
 
 def _class(column: Column) -> str:
-    return tr("{align} wide", align=column.align) if column.wide else column.align
+    return f"{column.align} wide" if column.wide else column.align
 
 
 def _caption(caption: str) -> str:

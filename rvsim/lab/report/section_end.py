@@ -7,18 +7,18 @@ from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 
 import rvsim
-from rvsim.lab.report.figures import sentence_list
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Items, Paragraph, Run, Section
-from rvsim.language import tr
+from rvsim.language import left_to_right, listed, tr, tr_later
 
-_LENGTHS = {"mm": "millimetres", "m": "metres"}
+_ANGLES = {"deg": tr_later("degrees"), "rad": tr_later("radians")}
+_LENGTHS = {"mm": tr_later("millimetres"), "m": tr_later("metres")}
 _PARTS = ("numpy", "PySide6-Essentials", "ruckig", "ziamath")
 
 
 def versions() -> tuple[tuple[str, str], ...]:
     """Name and version of what computed and drew."""
-    known = [("rvsim", rvsim.__version__), (tr("Python"), platform.python_version())]
+    known = [("rvsim", rvsim.__version__), ("Python", platform.python_version())]
     return (*known, *((part, _version(part)) for part in _PARTS))
 
 
@@ -31,8 +31,8 @@ def _version(part: str) -> str:
 
 def end_section(study: Study, files: Mapping[str, str]) -> Section:
     """Conventions; the files beside the report with what is in them; versions."""
-    angles = "degrees" if study.units.angle == "deg" else "radians"
-    lengths = tr("the arm’s own unit") if study.robot.length_unit == "unit" else _LENGTHS[study.units.length]
+    angles = tr(_ANGLES[study.units.angle])
+    lengths = tr("the arm’s own unit") if study.robot.length_unit == "unit" else tr(_LENGTHS[study.units.length])
     conventions = (
         tr(
             "Angles are shown in {angles}, lengths in {lengths}; inside, everything is computed in radians and metres.",
@@ -47,7 +47,7 @@ def end_section(study: Study, files: Mapping[str, str]) -> Section:
         tr("Roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll). Quaternions have w first, and w ≥ 0."),
     )
     names = tuple((Run(name, "code"), Run(f" – {what}")) for name, what in files.items())
-    made = sentence_list([f"{name} {number}" for name, number in versions()])
+    made = listed([left_to_right(f"{name} {number}") for name, number in versions()])
     return Section(
         tr("How this was computed"),
         (

@@ -9,7 +9,8 @@ import numpy as np
 from rvsim.errors import NoClosedFormError
 from rvsim.kinematics.inverse import Branch
 from rvsim.kinematics.inverse.families import closed_form
-from rvsim.lab.report.figures import Measures, counted, number, scientific, small, subscript
+from rvsim.kinematics.inverse.words import branch_title
+from rvsim.lab.report.figures import Measures, number, number_word, scientific, small, subscript, within_limits_words
 from rvsim.lab.report.pictures import branches_picture
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import (
@@ -17,6 +18,7 @@ from rvsim.lab.report.values import (
     Column,
     Figure,
     Formula,
+    Items,
     Paragraph,
     Run,
     Section,
@@ -26,7 +28,7 @@ from rvsim.lab.report.values import (
 )
 from rvsim.lab.sentences import failure_sentence
 from rvsim.lab.worked import Equation, Step, WorkedBranch, WorkedSolution, worked_solution
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 
 _SAME = 1e-6
 TASKS = {
@@ -56,22 +58,15 @@ def _branches(study: Study, measures: Measures, solution: WorkedSolution) -> Ite
     assert study.inverse is not None, "a worked solution has branches"
     found = study.inverse.branches
     within = sum(branch.within_limits for branch in found)
-    count = counted(len(found), "branch", "branches")
-    verdict = (
-        counted(within, tr("of them lies"), tr("of them lie"))
-        if len(found) > 1
-        else tr("it lies")
-        if within
-        else tr("it is not")
+    count = trn(
+        "The closed form finds {count} branch for the pose above.",
+        "The closed form finds {count} branches for the pose above.",
+        len(found),
+        count=number_word(len(found)),
     )
-    yield Paragraph(
-        tr(
-            "Asked for is {tasks}. The closed form finds {count} for the pose above; {verdict} within the limits.",
-            tasks=TASKS[closed_form(study.robot).task],
-            count=count,
-            verdict=verdict,
-        )
-    )
+    asked = tr("Asked for is {task}.", task=tr(TASKS[closed_form(study.robot).task]))
+    verdict = within_limits_words(within, len(found)) if found else ""
+    yield Paragraph(f"{asked} {count} {verdict}".rstrip())
     yield _branch_table(study, measures, found)
     if len(found) > 1:
         yield Figure(
@@ -83,21 +78,18 @@ def _branches(study: Study, measures: Measures, solution: WorkedSolution) -> Ite
         )
     dead = [end for end in solution.branches if end.q is None]
     if dead:
-        yield Paragraph(tr("No solution: ") + "; ".join(f"{end.label}: {_clause(end)}" for end in dead) + ".")
+        yield Paragraph(tr("Without a solution:"))
+        yield Items(tuple(f"{branch_title(end.label)}: {end.reason}" for end in dead))
     failure = study.inverse.failure
     if failure is not None:
         yield Paragraph(failure_sentence(failure, study.units))
 
 
-def _clause(end: WorkedBranch) -> str:
-    return end.reason.removeprefix("No solution: ").removesuffix(".")
-
-
 def _branch_table(study: Study, measures: Measures, found: tuple[Branch, ...]) -> Table:
     joints = tuple(Column(f"q{subscript(i + 1)} [{measures.joint(i).unit}]") for i in range(study.robot.dof))
     columns = (
-        Column("", "center"), Column(tr("Branch"), "left"), *joints, Column("within", "center"),
-        Column("margin"), Column("residual"), Column("w"),
+        Column("", "center"), Column(tr("Branch"), "left"), *joints, Column(tr("within"), "center"),
+        Column(tr("margin")), Column(tr("residual")), Column("w"),
     )  # fmt: skip
     rows = tuple(_branch_row(number, study, measures, branch) for number, branch in enumerate(found, 1))
     note = tr(
@@ -111,11 +103,11 @@ def _branch_row(row: int, study: Study, measures: Measures, branch: Branch) -> t
     here = float(np.abs(branch.q - study.q).max()) < _SAME
     tightest = int(np.argmin(branch.limit_margin))
     margin = measures.joint(tightest)
-    verdict = Run("✓ yes", "good") if branch.within_limits else Run("✗ no", "bad")
+    verdict = Run(tr("✓ yes"), "good") if branch.within_limits else Run(tr("✗ no"), "bad")
     joints = (measures.joint(i).text(float(value), 1) for i, value in enumerate(branch.q))
     return (
         f"{row}{' ▸' if here else ''}",
-        branch.label,
+        branch_title(branch.label),
         *joints,
         verdict,
         f"{number(float(branch.limit_margin[tightest]) * margin.factor, 1)} {margin.unit}".replace(" °", "°"),
@@ -131,8 +123,8 @@ def _worked(study: Study, solution: WorkedSolution) -> Iterator[Block]:
     end = _end(study, solution)
     if end is None:
         return
-    where = tr(" branch “{label}”", label=end.label) if end.label else " solution"
-    yield Subheading(tr("The closed form, step by step:{where}", where=where))
+    branch = tr("The closed form, step by step: branch “{branch}”", branch=branch_title(end.label))
+    yield Subheading(branch if end.label else tr("The closed form, step by step: solution"))
     for count, step in enumerate(solution.along(end.path), 1):
         yield from step_blocks(count, step)
 

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 from rvsim.kinematics.singular_families import SingularFamily, singular_families
 from rvsim.kinematics.singularity import Measures as Values
 from rvsim.kinematics.singularity import Singularity, singularity
-from rvsim.lab.report.figures import Measures, number, sentence_list, small, subscript, table_latex
+from rvsim.lab.report.figures import Measures, number, small, subscript, table_latex
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Formula, Paragraph, Run, Section, Table, Words
-from rvsim.language import tr
+from rvsim.language import left_to_right, listed, tr
 
 _NEAR = 0.1  # of a family's term, to be called near
 
@@ -20,16 +20,15 @@ def jacobian_section(study: Study, measures: Measures) -> Section:
     """J, σ, families."""
     found = singularity(study.robot, study.q)
     metre = measures.metre
-    joint = "rad" if study.robot.is_revolute.all() else f"rad or {metre}"
+    joint = "rad" if study.robot.is_revolute.all() else tr("rad or {metre}", metre=metre)
     return Section(
         tr("The Jacobian"),
         (
             Paragraph(
                 tr(
                     "The geometric Jacobian at the tool, in base axes: (v, ω) = J q̇. Its first three rows are the "
-                    "tool’s "
-                    "velocity in {metre}/s, the last three its turning in rad/s, each for 1 {joint} per second of a "
-                    "joint.",
+                    "tool’s velocity in {metre}/s, the last three its turning in rad/s, each for 1 {joint} per second "
+                    "of a joint.",
                     metre=metre,
                     joint=joint,
                 )
@@ -47,8 +46,8 @@ def _sigma_table(found: Singularity, measures: Measures) -> Table:
         parts.append((tr("the arm’s own task"), found.task))
     most = max(len(values.singular_values) for _, values in parts)
     columns = (
-        Column(tr("Rows of J"), "left"), *(Column(f"σ{subscript(i + 1)}") for i in range(most)), Column("condition"),
-        Column("w"), Column("rank"),
+        Column(tr("Rows of J"), "left"), *(Column(f"σ{subscript(i + 1)}") for i in range(most)),
+        Column(tr("condition")), Column("w"), Column(tr("rank")),
     )  # fmt: skip
     rows = tuple(_sigma_row(name, values, most) for name, values in parts)
     note = tr(
@@ -63,7 +62,7 @@ def _sigma_row(name: str, values: Values, most: int) -> tuple[Words, ...]:
     condition = "∞" if math.isinf(values.condition) else number(values.condition, 1)
     if not math.isinf(values.condition) and values.condition >= 1e5:
         condition = small(values.condition)
-    rank = f"{values.rank} of {values.full_rank}"
+    rank = tr("{number} of {count}", number=values.rank, count=values.full_rank)
     return (name, *sigma, *[""] * (most - len(sigma)), condition, small(values.manipulability), rank)
 
 
@@ -71,16 +70,14 @@ def _families(study: Study, found: Singularity, measures: Measures) -> Iterator[
     known = singular_families(study.robot)
     active = [*found.families, *found.position_families]
     if active:
-        names = sentence_list([family.title for family in active])
-        yield Paragraph(
-            tr("The pose is singular: {names}. ", names=names) + " ".join(family.sentence for family in active)
-        )
+        singular = tr("The pose is singular: {names}.", names=listed([family.title for family in active]))
+        yield Paragraph(" ".join((singular, *(family.sentence for family in active))))
     elif found.task.rank == found.task.full_rank:
         yield Paragraph(tr("The pose is not singular: the Jacobian of the arm’s task has its full rank."))
     if known:
         columns = (
-            Column(tr("Singularity"), "left", wide=True), Column("kind", "left"), Column(tr("where it is"), "left"),
-            Column("here"), Column("", "left"),
+            Column(tr("Singularity"), "left", wide=True), Column(tr("kind"), "left"), Column(tr("where it is"), "left"),
+            Column(tr("here")), Column("", "left"),
         )  # fmt: skip
         rows = tuple(_family_row(study, family, measures) for family in known)
         yield Table(tr("The singularities of this arm, and how far the pose is from them."), columns, rows)
@@ -92,7 +89,9 @@ def _family_row(study: Study, family: SingularFamily, measures: Measures) -> tup
         for term, value in zip(family.terms, family.values(study.q), strict=True)
     ]
     measure = float(family.measure(study.q))
-    state = (
-        Run("✗ active", "bad") if measure <= 1e-6 else Run("▲ near", "warning") if measure < _NEAR else Run("✓", "good")
-    )
-    return (family.title, family.kind, Run(family.formula, "math"), ", ".join(values), state)
+    state = Run("✓", "good")
+    if measure <= 1e-6:
+        state = Run(tr("✗ active"), "bad")
+    elif measure < _NEAR:
+        state = Run(tr("▲ near"), "warning")
+    return (family.title, tr(family.kind), Run(family.formula, "math"), left_to_right(", ".join(values)), state)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from rvsim.lab.report.chart import Chart, Curve
 from rvsim.lab.report.figures import DASH, Measure, Measures, number
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Paragraph, Section, Table, Words
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.playback.recording import Recording
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -18,8 +19,15 @@ from rvsim.robot.arrays import FloatArray
 COLORS = {"desired": "#0072B2", "commanded": "#009E73", "measured": "#D55E00", "true": "#CC79A7"}
 _DASHES = {"desired": 0, "commanded": 1, "measured": 2, "true": 3}
 _TRUE_WORDS = tr_later(
-    " “Really” is where the joints of the virtual arm truly were, which nobody can see of a real one."
+    "“Really” is where the joints of the virtual arm truly were, which nobody can see of a real one."
 )
+_SOURCES = {
+    "desired": tr_later("desired"),
+    "commanded": tr_later("commanded"),
+    "measured": tr_later("measured"),
+    "reported": tr_later("reported"),
+    "true": tr_later("really"),
+}
 _LAGS = tr_later("Sent: the set-points commanded. The measured tool lags behind in time as well as in place.")
 _REPORTED = tr_later(
     "Sent: the set-points commanded. Reported: the pulses that the controller says it sends, later than the set-points "
@@ -33,55 +41,79 @@ def measured_section(study: Study, measures: Measures) -> Section:
     assert recording is not None, "asked for only where something ran"
     part = recording.on_trajectory()
     head = Paragraph(" ".join(filter(None, _words(study, recording, part))))
-    title = tr("On the arm: desired, commanded, {back}", back=recording.back_word)
+    measured, reported = tr("On the arm: desired, commanded, measured"), tr("On the arm: desired, commanded, reported")
+    title = measured if recording.is_measured else reported
     if part.empty:
         return Section(title, (head,))
-    return Section(
-        title, (head, _table(study.robot, part, measures), *_figures(study.robot, part, measures))
-    )  # fmt: skip
+    return Section(title, (head, _table(study.robot, part, measures), *_figures(study.robot, part, measures)))
 
 
 def _words(study: Study, recording: Recording, part: Recording) -> Iterator[str]:
     if recording.stopped_at is None:
-        yield tr("The motion ran on an arm for {number} s.", number=number(part.duration, 2))
+        yield tr("The motion ran on an arm for {seconds} s.", seconds=number(part.duration, 2))
     else:
         yield (
             tr(
-                "The motion was stopped at {number} of {number2} s; what follows is of the part that ran.",
-                number=number(recording.stopped_at, 1),
-                number2=number(recording.planned, 1),
+                "The motion was stopped at {seconds} of {planned} s; what follows is of the part that ran.",
+                seconds=number(recording.stopped_at, 1),
+                planned=number(recording.planned, 1),
             )
         )
     yield study.run
-    count = len(part.measured_rows) or "none"
-    came = "a measurement" if recording.is_measured else tr("a report of the controller")
-    yield tr(
-        "{count} moments of it were recorded, {count2} of them with {came}.", count=len(part.t), count2=count, came=came
+    yield _moments(len(part.t), len(part.measured_rows), measured=recording.is_measured)
+    yield study.measured
+    if recording.true is not None:
+        yield tr(_TRUE_WORDS)
+
+
+def _moments(moments: int, known: int, *, measured: bool) -> str:
+    """How much of a motion was recorded, and how much of that came back."""
+    if measured and known:
+        return trn(
+            "{n} moment of it was recorded, {known} of them with a measurement.",
+            "{n} moments of it were recorded, {known} of them with a measurement.",
+            moments,
+            known=known,
+        )
+    if measured:
+        return trn(
+            "{n} moment of it was recorded, none of them with a measurement.",
+            "{n} moments of it were recorded, none of them with a measurement.",
+            moments,
+        )
+    if known:
+        return trn(
+            "{n} moment of it was recorded, {known} of them with a report of the controller.",
+            "{n} moments of it were recorded, {known} of them with a report of the controller.",
+            moments,
+            known=known,
+        )
+    return trn(
+        "{n} moment of it was recorded, none of them with a report of the controller.",
+        "{n} moments of it were recorded, none of them with a report of the controller.",
+        moments,
     )
-    yield study.measured + (_TRUE_WORDS if recording.true is not None else "")
 
 
 def source_word(recording: Recording, name: str) -> str:
     """What a source is called in the report."""
-    return {"measured": recording.back_word, "true": "really"}.get(name, name)
+    return tr(_SOURCES[recording.back_word if name == "measured" else name])
 
 
 def _table(robot: Robot, recording: Recording, measures: Measures) -> Table:
     shown = [name for name in recording.sources if name != "desired"]
-    heads = {name: "sent" if name == "commanded" else source_word(recording, name) for name in shown}
-    columns = (
-        Column("", "left"), Column("unit", "center"),
-        *(Column(f"{heads[name]} {what}") for name in shown for what in ("RMS", "max")),
-    )  # fmt: skip
+    heads = [tr("sent") if name == "commanded" else source_word(recording, name) for name in shown]
+    errors = ((tr("{source} RMS", source=head), tr("{source} max", source=head)) for head in heads)
+    columns = (Column("", "left"), Column(tr("unit"), "center"), *map(Column, chain.from_iterable(errors)))
     joints = [recording.joint_errors(name) for name in shown]
     rows = [
-        _row(f"J{i + 1} {robot.joint_names[i]}", measures.joint(i),
+        _row(f"J{i + 1} {tr(robot.joint_names[i])}", measures.joint(i),
              tuple(values[i] for errors in joints for values in (errors.rms, errors.max)))
         for i in range(robot.dof)
     ]  # fmt: skip
     tool = [recording.tool_errors(robot, name) for name in shown]
     rows.append(_row(tr("Tool, place"), measures.length, tuple(x for errors in tool for x in (errors.rms, errors.max))))
-    note = _LAGS if recording.is_measured else _REPORTED
+    note = tr(_LAGS) if recording.is_measured else tr(_REPORTED)
     caption = tr("Deviations from what was desired, at the same moments of the motion.")
     return Table(caption, columns, tuple(rows), note, totals=1)
 
@@ -93,7 +125,9 @@ def _row(name: str, measure: Measure, values: tuple[float | FloatArray, ...]) ->
 
 def _figures(robot: Robot, recording: Recording, measures: Measures) -> Iterator[Block]:
     charts = tuple(_joint(robot, recording, measures, index) for index in range(robot.dof))
-    yield Figure(tr("Each joint: desired, commanded (dashed) and {back} (dotted).", back=recording.back_word), charts)
+    measured = tr("Each joint: desired, commanded (dashed) and measured (dotted).")
+    reported = tr("Each joint: desired, commanded (dashed) and reported (dotted).")
+    yield Figure(measured if recording.is_measured else reported, charts)
     distances = {name: recording.tool_distances(robot, name) for name in recording.sources if name != "desired"}
     lines = tuple(
         Curve(
@@ -107,7 +141,7 @@ def _figures(robot: Robot, recording: Recording, measures: Measures) -> Iterator
     )
     if lines:
         chart = Chart(
-            tr("Distance of the tool from where it was desired"), "time [s]", f"[{measures.length.unit}]", lines
+            tr("Distance of the tool from where it was desired"), tr("time [s]"), f"[{measures.length.unit}]", lines
         )
         yield Figure(tr("How far the tool was from where it was to be at that moment."), (chart,))
 
@@ -124,7 +158,8 @@ def _joint(robot: Robot, recording: Recording, measures: Measures, index: int) -
         for name in recording.sources
         if np.isfinite(getattr(recording, name)[:, index]).any()
     )
-    return Chart(f"J{index + 1} {robot.joint_names[index]}", "time [s]", f"[{measure.unit}]", lines, height=96.0)
+    title = f"J{index + 1} {tr(robot.joint_names[index])}"
+    return Chart(title, tr("time [s]"), f"[{measure.unit}]", lines, height=96.0)
 
 
 def _known(t: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:

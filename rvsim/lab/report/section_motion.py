@@ -29,7 +29,7 @@ _OFF_WORDS = {
         "out of reach."
     ),
 }
-_TIME = "time [s]"
+_TIME = tr_later("time [s]")
 _LIGHTEST = 0.4  # luminance of a curve on white
 # A level deviation of rounding is written in the unit that shows it.
 _FINER = (("mm", 1e3), ("µm", 1e6), ("nm", 1e9), ("pm", 1e12), ("fm", 1e15))
@@ -41,8 +41,10 @@ def motion_section(study: Study, measures: Measures) -> Section:
     assert curves is not None, "asked for only where a motion is loaded"
     assert trajectory is not None, "its curves are those of a trajectory"
     marks = (trajectory.path_start,) if 0.0 < trajectory.path_start < trajectory.duration else ()
-    begin = tr(" The dashed line at {number} s is where the path begins.", number=number(marks[0], 2)) if marks else ""
-    text = tr("The motion takes {number} s.{begin}", number=number(trajectory.duration, 2), begin=begin)
+    text = tr("The motion takes {seconds} s.", seconds=number(trajectory.duration, 2))
+    if marks:
+        begin = tr("The dashed line at {seconds} s is where the path begins.", seconds=number(marks[0], 2))
+        text = f"{text} {begin}"
     return Section(tr("The motion over time"), (Paragraph(text), *_figures(curves, measures, marks)))
 
 
@@ -55,7 +57,7 @@ def _figures(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> It
     yield Figure(tr("Where the tool is, and where the path wants it (dashed)."), (_place(curves, measures, marks),))
     if curves.deviation is not None:
         yield Figure(
-            _OFF_WORDS[curves.tracking is None or curves.tracking.complete],
+            tr(_OFF_WORDS[curves.tracking is None or curves.tracking.complete]),
             (_deviation(curves, measures, marks),),
         )
     yield Figure(
@@ -69,13 +71,13 @@ def _joint_chart(curves: Curves, measures: Measures, order: int, marks: tuple[fl
     shown = [measures.joint(index).per(below) for index in range(curves.robot.dof)]
     values = [found[:, i] * measure.factor for i, measure in enumerate(shown)]
     lines = tuple(
-        Curve(f"J{i + 1} {joint.name}", paper_color(joint.color), curves.times, values[i], i % DASHES)
+        Curve(f"J{i + 1} {tr(joint.name)}", paper_color(joint.color), curves.times, values[i], i % DASHES)
         for i, joint in enumerate(curves.robot.joints)
     )
     unit = ", ".join(dict.fromkeys(each.unit for each in shown))
     title = (tr("Joints q"), tr("Joint speeds q̇"), tr("Joint accelerations q̈"))[order]
     limits = _limits(curves, order, shown) if order < 2 else ()
-    return Chart(title, _TIME, f"[{unit}]", lines, limits, marks, 132.0)
+    return Chart(title, tr(_TIME), f"[{unit}]", lines, limits, marks, 132.0)
 
 
 def paper_color(color: str) -> str:
@@ -98,22 +100,23 @@ def _limits(curves: Curves, order: int, shown: list[Measure]) -> tuple[Limit, ..
 
 def _place(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> Chart:
     length = measures.length
-    lines = [_axis_curve(i, "", curves.times, curves.place[:, i] * length.factor) for i in range(3)]
+    lines = [_axis_curve(i, "xyz"[i], curves.times, curves.place[:, i] * length.factor) for i in range(3)]
     if curves.desired is not None:
-        lines += [_axis_curve(i, " wanted", curves.times, curves.desired[:, i] * length.factor, 2) for i in range(3)]
-    return Chart(tr("Place of the tool"), _TIME, f"[{length.unit}]", tuple(lines), (), marks, 150.0)
+        wanted = [tr("{axis} wanted", axis=axis) for axis in "xyz"]
+        lines += [_axis_curve(i, wanted[i], curves.times, curves.desired[:, i] * length.factor, 2) for i in range(3)]
+    return Chart(tr("Place of the tool"), tr(_TIME), f"[{length.unit}]", tuple(lines), (), marks, 150.0)
 
 
-def _axis_curve(i: int, suffix: str, times: FloatArray, values: FloatArray, dash: int = 0) -> Curve:
-    return Curve(f"{'xyz'[i]}{suffix}", AXIS_COLORS[i], times, values, dash)
+def _axis_curve(i: int, name: str, times: FloatArray, values: FloatArray, dash: int = 0) -> Curve:
+    return Curve(name, AXIS_COLORS[i], times, values, dash)
 
 
 def _deviation(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> Chart:
     deviation = curves.deviation
     assert deviation is not None
     factor, unit = fine_unit(deviation, measures)
-    line = Curve("deviation", _OFF_COLOR, curves.times, np.asarray(deviation) * factor)
-    return Chart(tr("Deviation from the path"), _TIME, f"[{unit}]", (line,), (), marks, 110.0)
+    line = Curve(tr("deviation"), _OFF_COLOR, curves.times, np.asarray(deviation) * factor)
+    return Chart(tr("Deviation from the path"), tr(_TIME), f"[{unit}]", (line,), (), marks, 110.0)
 
 
 def fine_unit(values: FloatArray, measures: Measures) -> tuple[float, str]:
@@ -121,7 +124,7 @@ def fine_unit(values: FloatArray, measures: Measures) -> tuple[float, str]:
     length = measures.length
     known = np.abs(values[np.isfinite(values)])
     largest = float(known.max(initial=0.0))
-    if length.unit == "units" or largest * length.factor >= 0.01 or largest == 0.0:
+    if measures.robot.length_unit == "unit" or largest * length.factor >= 0.01 or largest == 0.0:
         return length.factor, length.unit
     unit, factor = next(((name, factor) for name, factor in _FINER if largest * factor >= 0.1), ("fm", 1e15))
     return factor, unit
@@ -129,4 +132,4 @@ def fine_unit(values: FloatArray, measures: Measures) -> tuple[float, str]:
 
 def _sigma(curves: Curves, marks: tuple[float, ...]) -> Chart:
     line = Curve("σ min", _TOOL_COLOR, curves.times, curves.sigma_min)
-    return Chart(tr("Smallest singular value σ of J (SI units)"), _TIME, "", (line,), (), marks, 110.0)
+    return Chart(tr("Smallest singular value σ of J (SI units)"), tr(_TIME), "", (line,), (), marks, 110.0)

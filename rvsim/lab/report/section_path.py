@@ -16,14 +16,19 @@ from rvsim.lab.report.section_motion import fine_unit
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Items, Paragraph, Run, Section, Table, Words
 from rvsim.lab.sentences import advice_sentence, tracking_sentence
-from rvsim.language import tr
+from rvsim.language import tr, tr_later, trn
 from rvsim.motion import Tracking
 from rvsim.motion.honesty import Peak, Report
 from rvsim.robot.arrays import FloatArray
 
 ASKED, REACHED, MISSED = "#0072B2", "#B5179E", "#B54708"
 BoolArray = NDArray[np.bool_]
-_LAWS = {"quintic": "quintic", "cubic": "cubic", "trapezoid": "trapezoidal"}
+_LAWS = {
+    "quintic": tr_later("quintic"),
+    "cubic": tr_later("cubic"),
+    "trapezoid": tr_later("trapezoidal"),
+    "quickest": tr_later("quickest"),
+}
 
 
 def path_section(study: Study, measures: Measures) -> Section:
@@ -31,18 +36,16 @@ def path_section(study: Study, measures: Measures) -> Section:
     tracking, report = study.tracking, study.check
     assert tracking is not None, "asked for only where a path was tracked"
     assert report is not None, "a tracked path is checked"
-    title = tracking.path.title or tracking.path.name
+    path = trn(
+        "The path is “{title}”, {n} point.",
+        "The path is “{title}”, {n} points.",
+        tracking.samples,
+        title=tr(tracking.path.title or tracking.path.name),
+    )
     return Section(
         tr("The path"),
         (
-            Paragraph(
-                tr(
-                    "The path is “{title}”, {samples} points. {tracking_sentence}",
-                    title=title,
-                    samples=tracking.samples,
-                    tracking_sentence=tracking_sentence(tracking, study.units),
-                )
-            ),
+            Paragraph(f"{path} {tracking_sentence(tracking, study.units)}"),
             *((Paragraph(advice_sentence(tracking)),) if not tracking.complete else ()),
             _facts(study, tracking, measures),
             Figure(
@@ -65,7 +68,11 @@ def _facts(study: Study, tracking: Tracking, measures: Measures) -> Table:
     deviation = tracking.deviation[tracking.reached]
     share = 100.0 * tracking.reached_count / tracking.samples
     rows: list[tuple[Words, ...]] = [
-        (tr("Points reached"), f"{tracking.reached_count} of {tracking.samples}", f"{share:.0f} %"),
+        (
+            tr("Points reached"),
+            tr("{number} of {count}", number=tracking.reached_count, count=tracking.samples),
+            f"{share:.0f} %",
+        ),
         (tr("Length of the path"), measures.length.text(tracking.path.length), measures.length.unit),
         *_deviation(deviation, measures),
         (tr("Changes of branch on the way"), str(len(tracking.jumps)), ""),
@@ -75,9 +82,9 @@ def _facts(study: Study, tracking: Tracking, measures: Measures) -> Table:
     if study.trajectory is not None:
         law = study.experiment.law
         rows.append((tr("Duration of the motion"), number(study.trajectory.duration, 2), "s"))
-        rows.append((tr("Time law"), _LAWS.get(law, law), ""))
+        rows.append((tr("Time law"), tr(_LAWS.get(law, law)), ""))
         rows += _between(study, measures)
-    columns = (Column("", "left"), Column("value"), Column("", "left"))
+    columns = (Column("", "left"), Column(tr("value")), Column("", "left"))
     return Table(tr("The path in numbers; deviations over the points that were reached."), columns, tuple(rows))
 
 
@@ -94,16 +101,16 @@ def _flat(tracking: Tracking, measures: Measures) -> Figure:
 
     everywhere = np.ones(len(points), dtype=bool)
     curves = [curve(tr("asked for"), ASKED, points, everywhere, 0)]
-    curves.append(curve("reached", REACHED, tracking.actual, everywhere, 2))
+    curves.append(curve(tr("reached"), REACHED, tracking.actual, everywhere, 2))
     if not tracking.complete:
         curves.append(curve(tr("out of reach"), MISSED, points, ~tracking.reached, 1))
     across, up = (f"{'xyz'[axis]} [{unit}]" for axis in (first, second))
     chart = Chart(tr("The path, flat"), across, up, tuple(curves), height=190.0, equal=True)
     return Figure(
         tr(
-            "The path along {value} and {value2} of the base, both in the same scale.",
-            value="xyz"[first],
-            value2="xyz"[second],
+            "The path along {first} and {second} of the base, both in the same scale.",
+            first="xyz"[first],
+            second="xyz"[second],
         ),
         (chart,),
     )
@@ -129,10 +136,10 @@ def _deviation(
 
 
 def _findings(study: Study, report: Report) -> Iterator[Block]:
-    yield Paragraph((Run(tr("The check before the motion. "), "bold"), Run(summary_sentence(report))))
+    yield Paragraph((Run(tr("The check before the motion."), "bold"), Run(f" {summary_sentence(report)}")))
     marks = tuple(Run(SYMBOLS[finding.severity], finding.severity) for finding in report.findings)
     items = tuple(
-        (Run(f"{WORDS[finding.kind]}. ", "bold"), Run(finding_sentence(report, finding, study.units)))
+        (Run(f"{tr(WORDS[finding.kind])}. ", "bold"), Run(finding_sentence(report, finding, study.units)))
         for finding in report.findings
     )
     yield Items(items, marks)
@@ -142,8 +149,8 @@ def _peaks(report: Report, measures: Measures) -> Iterator[Block]:
     if not report.speeds:
         return
     columns = (
-        Column("i", "center"), Column(tr("Joint"), "left"), Column("unit", "center"), Column("max |q̇| [1/s]"),
-        Column("limit"), Column("share"), Column("max |q̈| [1/s²]"), Column("limit"), Column("share"),
+        Column("i", "center"), Column(tr("Joint"), "left"), Column(tr("unit"), "center"), Column("max |q̇| [1/s]"),
+        Column(tr("limit")), Column(tr("share")), Column("max |q̈| [1/s²]"), Column(tr("limit")), Column(tr("share")),
     )  # fmt: skip
     pairs = zip(report.speeds, report.accelerations, strict=True)
     rows = tuple(_peak_row(index, speed, rate, report, measures) for index, (speed, rate) in enumerate(pairs))
@@ -158,7 +165,7 @@ def _peaks(report: Report, measures: Measures) -> Iterator[Block]:
 
 def _peak_row(index: int, speed: Peak, rate: Peak, report: Report, measures: Measures) -> tuple[Words, ...]:
     measure = measures.joint(index)
-    cells: list[Words] = [str(index + 1), report.robot.joint_names[index], measure.unit]
+    cells: list[Words] = [str(index + 1), tr(report.robot.joint_names[index]), measure.unit]
     for peak in (speed, rate):
         limit = DASH if peak.limit is None else f"{peak.limit.value * measure.factor:.4g}"
         mark = f" {ASSUMED}" if peak.limit is not None and peak.limit.assumed else ""

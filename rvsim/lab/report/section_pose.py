@@ -43,7 +43,7 @@ def _product(robot: Robot) -> str:
 def _joints_table(study: Study, measures: Measures) -> Table:
     si = "rad" if study.robot.is_revolute.all() else f"rad, {measures.metre}"
     columns = (
-        Column("i", "center"), Column(tr("Joint"), "left"), Column("unit", "center"), Column("qᵢ"),
+        Column("i", "center"), Column(tr("Joint"), "left"), Column(tr("unit"), "center"), Column("qᵢ"),
         Column(tr("nearer limit")), Column(tr("room to it")), Column(f"qᵢ [{si}]"),
     )  # fmt: skip
     rows = tuple(_joint_row(index, study, measures) for index in range(study.robot.dof))
@@ -58,7 +58,7 @@ def _joint_row(index: int, study: Study, measures: Measures) -> tuple[Words, ...
     below, above = value - joint.lower, joint.upper - value
     limit, room = (joint.lower, below) if below < above else (joint.upper, above)
     texts = (measure.text(value), measure.text(limit), measure.text(room), PLAIN.text(value))
-    return (str(index + 1), joint.name, measure.unit, *texts)
+    return (str(index + 1), tr(joint.name), measure.unit, *texts)
 
 
 def _tool(study: Study, measures: Measures) -> tuple[Block, ...]:
@@ -68,9 +68,9 @@ def _tool(study: Study, measures: Measures) -> tuple[Block, ...]:
     length, turn = measures.length, measures.angle
     columns = (
         Column(tr("Quantity"), "left"),
-        Column("entries", "left"),
+        Column(tr("entries"), "left"),
         *(Column("") for _ in range(4)),
-        Column("unit", "left"),
+        Column(tr("unit"), "left"),
     )
     rows = (
         (tr("Position"), "x, y, z", *(length.text(float(v)) for v in place), "", length.unit),
@@ -78,7 +78,7 @@ def _tool(study: Study, measures: Measures) -> tuple[Block, ...]:
         (tr("Quaternion"), "w, x, y, z", *(PLAIN.text(float(v)) for v in quaternion), ""),
         (
             tr("Axis and angle"),
-            "x, y, z; angle",
+            tr("x, y, z; angle"),
             *(PLAIN.text(float(v)) for v in axis),
             turn.text(float(angle)),
             turn.unit,

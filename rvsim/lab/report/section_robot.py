@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from rvsim.lab.report.figures import ASSUMED, DASH, Measure, Measures, counted, subscript, transform_latex
+from rvsim.lab.report.figures import ASSUMED, DASH, Measure, Measures, number_word, subscript, transform_latex
 from rvsim.lab.report.pictures import robot_picture
 from rvsim.lab.report.servo_table import servo_tables
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Formula, Items, Paragraph, Section, Table, Words
-from rvsim.language import tr, tr_later
+from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Datum, Joint, Robot
 
 _LINK_PRODUCTS = {
@@ -35,8 +35,8 @@ def robot_section(study: Study, measures: Measures) -> Section:
             Figure(tr("The arm in the pose of this report, with the frames of its table."), (robot_picture(study),)),
             Paragraph(
                 tr(
-                    "Its links follow the {conventions}; one link is the product",
-                    conventions=_CONVENTIONS[robot.convention],
+                    "Its links follow the {convention}; one link is the product",
+                    convention=tr(_CONVENTIONS[robot.convention]),
                 )
             ),
             Formula("{}^{i-1}T_i = A_i", (_LINK_PRODUCTS[robot.convention],)),
@@ -50,21 +50,34 @@ def robot_section(study: Study, measures: Measures) -> Section:
 
 
 def _introduction(robot: Robot) -> str:
-    family = f" ({robot.family})" if robot.family else ""
+    name = tr("{robot} ({family})", robot=robot.title, family=tr(robot.family)) if robot.family else robot.title
     turning = int(robot.is_revolute.sum())
     sliding = robot.dof - turning
-    kinds = [f"{counted(turning, 'joint that turns', 'joints that turn')}"] * (turning > 0)
-    kinds += [f"{counted(sliding, 'that slides', 'that slide')}"] * (sliding > 0)
-    variable = (
-        tr(" The variable qᵢ of a joint is an angle where it turns and a length where it slides.") if sliding else ""
-    )
-    return tr(
-        "The {title}{family} has {kinds}.{variable}",
-        title=robot.title,
-        family=family,
-        kinds=" and ".join(kinds),
-        variable=variable,
-    )
+    sentences = []
+    if turning:
+        count = number_word(turning)
+        sentences.append(
+            trn(
+                "The {robot} has {count} joint that turns.",
+                "The {robot} has {count} joints that turn.",
+                turning,
+                robot=name,
+                count=count,
+            )
+        )
+    if sliding:
+        count = number_word(sliding)
+        sentences.append(
+            trn(
+                "The {robot} has {count} joint that slides.",
+                "The {robot} has {count} joints that slide.",
+                sliding,
+                robot=robot.title if turning else name,
+                count=count,
+            )
+        )
+        sentences.append(tr("The variable qᵢ of a joint is an angle where it turns and a length where it slides."))
+    return " ".join(sentences)
 
 
 def _dh_table(robot: Robot, measures: Measures) -> Table:
@@ -79,7 +92,7 @@ def _dh_table(robot: Robot, measures: Measures) -> Table:
     rows = tuple(_dh_row(index, joint, measures) for index, joint in enumerate(robot.joints))
     note = tr("qᵢ: the joint variable.")
     if any(joint.dh_assumed for joint in robot.joints):
-        note += tr(" {assumed} assumed: no source gives the row.", assumed=ASSUMED)
+        note = " ".join((note, tr("{assumed} assumed: no source gives the row.", assumed=ASSUMED)))
     return Table(tr("DH parameters of the {title}.", title=robot.title), columns, rows, note)
 
 
@@ -89,7 +102,7 @@ def _dh_row(index: int, joint: Joint, measures: Measures) -> tuple[Words, ...]:
     theta = _with_variable(variable, joint.theta, angle) if joint.revolute else angle.text(joint.theta)
     d = length.text(joint.d) if joint.revolute else _with_variable(variable, joint.d, length)
     mark = f" {ASSUMED}" if joint.dh_assumed else ""
-    return (str(index + 1), f"{joint.name}{mark}", theta, d, length.text(joint.a), angle.text(joint.alpha))
+    return (str(index + 1), f"{tr(joint.name)}{mark}", theta, d, length.text(joint.a), angle.text(joint.alpha))
 
 
 def _with_variable(variable: str, offset: float, measure: Measure) -> str:
@@ -107,7 +120,7 @@ def _fixed_transforms(robot: Robot, measures: Measures) -> Iterator[Block]:
         yield Paragraph(
             tr(
                 "The tool is “{title}”; it is bolted to the flange by (lengths in {unit})",
-                title=robot.tool.title,
+                title=tr(robot.tool.title),
                 unit=unit,
             )
         )
@@ -118,13 +131,13 @@ def _limits_table(robot: Robot, measures: Measures) -> Table:
     columns = (
         Column("i", "center"),
         Column(tr("Joint"), "left"),
-        Column("unit", "center"),
-        Column("from"),
-        Column("to"),
-        Column("home"),
-        Column("speed [1/s]"),
-        Column("accel. [1/s²]"),
-        Column("torque [N m]" if robot.is_revolute.all() else "torque [N m, N]"),
+        Column(tr("unit"), "center"),
+        Column(tr("from")),
+        Column(tr("to")),
+        Column(tr("home")),
+        Column(tr("speed [1/s]")),
+        Column(tr("accel. [1/s²]")),
+        Column(tr("torque [N m]") if robot.is_revolute.all() else tr("torque [N m, N]")),
     )
     rows = tuple(_limits_row(index, joint, measures) for index, joint in enumerate(robot.joints))
     assumed = any(_marked(joint) for joint in robot.joints)
@@ -147,7 +160,7 @@ def _limits_row(index: int, joint: Joint, measures: Measures) -> tuple[Words, ..
     bounds = [measure.text(value, 1) for value in (joint.lower, joint.upper, joint.home)]
     rates = [_rated(datum, measure.factor) for datum in (joint.max_speed, joint.max_acceleration)]
     return (
-        str(index + 1), f"{joint.name}{mark}", measure.unit, *bounds, *rates, _rated(joint.max_torque, 1.0)
+        str(index + 1), f"{tr(joint.name)}{mark}", measure.unit, *bounds, *rates, _rated(joint.max_torque, 1.0)
     )  # fmt: skip
 
 
@@ -159,8 +172,8 @@ def _rated(datum: Datum | None, factor: float) -> str:
 
 def _origin(robot: Robot) -> Iterator[Block]:
     if robot.source:
-        yield Paragraph(tr("Source of the numbers: {source}.", source=robot.source).replace("..", "."))
-    notes = tuple(line.strip() for line in robot.notes.strip().splitlines() if line.strip())
+        yield Paragraph(tr("Source of the numbers: {source}.", source=tr(robot.source).rstrip(".")))
+    notes = tuple(line.strip() for line in tr(robot.notes).strip().splitlines() if line.strip())
     if notes:
         yield Paragraph(tr("What to know about them:"))
         yield Items(notes)

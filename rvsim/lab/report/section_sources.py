@@ -10,7 +10,7 @@ from rvsim.lab.report.figures import PLAIN, Measure, Measures, scientific
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Formula, Paragraph, Run, Section
 from rvsim.lab.sources import Comparison, Erratum, errata
-from rvsim.language import tr
+from rvsim.language import listed, tr
 from rvsim.robot.arrays import FloatArray
 
 _TINY = 5e-4
@@ -20,7 +20,7 @@ _FEW = 6  # numbers that still fit into a sentence
 def sources_section(study: Study, measures: Measures) -> Section:
     """One entry an erratum."""
     found = errata(study.robot)
-    sources = " and ".join(dict.fromkeys(tr("source {source}", source=entry.source) for entry in found))
+    sources = listed(list(dict.fromkeys(tr("source {source}", source=entry.source) for entry in found)))
     lead = tr(
         "Where {sources} of this arm prints what is not right: the formula as printed, what this report computes with "
         "instead, the reason, and both worked out at the pose of this report (with nothing bolted to the flange).",
@@ -33,9 +33,9 @@ def sources_section(study: Study, measures: Measures) -> Section:
 
 
 def _entry(study: Study, entry: Erratum, measures: Measures) -> Iterator[Block]:
-    head = tr("Source {source}, {where}: {title}.", source=entry.source, where=entry.where, title=entry.title)
-    yield Paragraph((Run(head, "bold"), Run(f" {entry.why}")))
-    for label, formulas in (("printed", entry.printed_latex), ("right", entry.right_latex)):
+    head = tr("Source {source}, {where}: {title}.", source=entry.source, where=tr(entry.where), title=tr(entry.title))
+    yield Paragraph((Run(head, "bold"), Run(f" {tr(entry.why)}")))
+    for label, formulas in ((tr("printed"), entry.printed_latex), (tr("correct"), entry.right_latex)):
         for number, latex in enumerate(formulas):
             yield Formula("", (latex,), label if number == 0 else " ")
     sentence = _numbers(study, entry, measures)
@@ -48,19 +48,20 @@ def _numbers(study: Study, entry: Erratum, measures: Measures) -> str:
     if found is None:
         return ""
     if np.isnan(found.printed).any():
-        return tr("At this pose: {lower}{undefined}", lower=entry.undefined[0].lower(), undefined=entry.undefined[1:])
+        return tr("At this pose: {sentence}", sentence=tr(entry.undefined))
     if found.agree:
         return tr("At this pose the printed formula happens to give the right value.")
     if found.right.size <= _FEW and found.right.ndim < 2:
         return tr(
-            "At this pose: printed {few}, right {few2}.",
-            few=_few(found.printed, found, measures),
-            few2=_few(found.right, found, measures),
+            "At this pose: printed {printed}, right {right}.",
+            printed=_few(found.printed, found, measures),
+            right=_few(found.right, found, measures),
         )
-    wrong = int(found.differs.sum())
-    entries = tr("{wrong} of {size} entries differ", wrong=wrong, size=found.right.size)
     return tr(
-        "At this pose {entries}; the largest difference is {worst}.", entries=entries, worst=_worst(found, measures)
+        "At this pose {wrong} of {count} entries differ; the largest difference is {worst}.",
+        wrong=int(found.differs.sum()),
+        count=found.right.size,
+        worst=_worst(found, measures),
     )
 
 
@@ -77,7 +78,7 @@ def _worst(found: Comparison, measures: Measures) -> str:
     for kind in dict.fromkeys(found.kinds[found.differs].ravel()):
         gap = float(np.abs(found.difference[found.kinds == kind]).max())
         parts.append(_amount(gap, str(kind), measures))
-    return " and ".join(parts)
+    return listed(parts)
 
 
 def _amount(value: float, kind: str, measures: Measures) -> str:

@@ -11,11 +11,14 @@ from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, joint_torques, pay
 from rvsim.lab.report.figures import ASSUMED, DASH, number, table_latex
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Formula, Items, Paragraph, Section, Table, Words
-from rvsim.language import tr
+from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 
-_DIRECTIONS = ("fx", "fy", "fz", "mx", "my", "mz")
+_EXERTS = {
+    "base": tr_later("The tool exerts the force {force} and the moment {moment} in base axes."),
+    "tool": tr_later("The tool exerts the force {force} and the moment {moment} in tool axes."),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,23 +59,16 @@ def torques_section(study: Study) -> Section:
 
 def _load_words(study: Study) -> str:
     load = study.experiment.load
-    parts = []
+    sentences = []
     if np.any(load.wrench):
         force, moment = (", ".join(number(float(v), 2) for v in load.wrench[k : k + 3]) for k in (0, 3))
-        parts.append(
-            tr(
-                "exerts the force ({force}) N and the moment ({moment}) N m in {axes} axes",
-                force=force,
-                moment=moment,
-                axes=load.axes,
-            )
-        )
+        sentences.append(tr(_EXERTS[load.axes], force=f"({force}) N", moment=f"({moment}) N m"))
     if load.payload:
-        parts.append(tr("carries {payload:.3g} kg", payload=load.payload))
-    if not parts:
+        sentences.append(tr("The tool carries {payload}.", payload=f"{load.payload:.3g} kg"))
+    if not sentences:
         return tr("No force at the tool and no payload were set: the drives hold the arm alone.")
     balance = tr("The joints balance it with τ = Jᵀ F, F being what the tool exerts at its origin.")
-    return tr("The tool {parts}. {balance}", parts=" and ".join(parts), balance=balance)
+    return " ".join((*sentences, balance))
 
 
 def _formula(study: Study, found: Torques) -> Iterator[Block]:
@@ -89,8 +85,8 @@ def _formula(study: Study, found: Torques) -> Iterator[Block]:
 
 def _table(study: Study, found: Torques) -> Table:
     robot = study.robot
-    heads = ("from F", tr("own weight"), "together", "rated", "share")
-    columns = (Column("i", "center"), Column(tr("Joint"), "left"), Column("unit", "center"), *map(Column, heads))
+    heads = (tr("from F"), tr("own weight"), tr("together"), tr("rated"), tr("share"))
+    columns = (Column("i", "center"), Column(tr("Joint"), "left"), Column(tr("unit"), "center"), *map(Column, heads))
     rows = tuple(_row(robot, index, found) for index in range(robot.dof))
     note = (
         tr("{assumed} assumed: no source gives it.", assumed=ASSUMED)
@@ -98,7 +94,7 @@ def _table(study: Study, found: Torques) -> Table:
         else ""
     )
     if found.weight is None:
-        note = tr("{note} {dash}: the masses of this arm are not known.", note=note, dash=DASH).strip()
+        note = f"{note} {tr('{dash}: the masses of this arm are not known.', dash=DASH)}".strip()
     return Table(tr("Torques of the joints at rest."), columns, rows, note)
 
 
@@ -110,11 +106,11 @@ def _row(robot: Robot, index: int, found: Torques) -> tuple[Words, ...]:
     share = f"{100.0 * abs(total) / rating.value:.0f} %" if rating else DASH
     unit = "N m" if joint.revolute else "N"
     outer = number(float(found.outer[index]), 3)
-    return (str(index + 1), joint.name, unit, outer, weight, number(total, 3), rated, share)
+    return (str(index + 1), tr(joint.name), unit, outer, weight, number(total, 3), rated, share)
 
 
 def _weight(robot: Robot) -> Iterator[Block]:
-    sources = tuple(dict.fromkeys(mass.source for mass in robot.masses if mass.source))
+    sources = tuple(dict.fromkeys(tr(mass.source) for mass in robot.masses if mass.source))
     if any(mass.assumed for mass in robot.masses):
         yield Paragraph(tr("The masses behind the column “own weight” are assumed, not measured:"), "note")
         yield Items(sources)

@@ -17,25 +17,27 @@ def servo_tables(robot: Robot, measures: Measures) -> Iterator[Table]:
     if not robot.servos:
         return
     columns = (
-        Column(tr("Joint"), "left"), Column("channel"), Column("direction"), Column(tr("gain [µs/{units}]", units=_units(robot, measures))),
-        Column("zero [µs]"), Column("min [µs]"), Column("max [µs]"), Column("origin", "left", wide=True),
+        Column(tr("Joint"), "left"), Column(tr("channel")), Column(tr("direction")),
+        Column(tr("gain [µs/{units}]", units=_units(robot, measures))),
+        Column(tr("zero [µs]")), Column("min [µs]"), Column("max [µs]"), Column(tr("source"), "left", wide=True),
     )  # fmt: skip
-    rows = [_row(f"J{i + 1} {robot.joint_names[i]}", i, servo, measures) for i, servo in enumerate(robot.servos)]
+    rows = [_row(f"J{i + 1} {tr(robot.joint_names[i])}", i, servo, measures) for i, servo in enumerate(robot.servos)]
     gripper = robot.gripper_servo
-    note = _NOTE
+    note = tr(_NOTE)
     if gripper is not None:
         rows.append(_gripper_row(gripper))
-        note += tr(
-            " The gripper is closed at {number} µs and open at {number2} µs.",
-            number=number(gripper.closed_us, 0),
-            number2=number(gripper.open_us, 0),
+        ends = tr(
+            "The gripper is closed at {closed} µs and open at {open} µs.",
+            closed=number(gripper.closed_us, 0),
+            open=number(gripper.open_us, 0),
         )
+        note = f"{note} {ends}"
     yield Table(tr("Calibration of the servos."), columns, tuple(rows), note)
 
 
 def _units(robot: Robot, measures: Measures) -> str:
     units = dict.fromkeys(measures.joint(index).unit for index in range(robot.dof))
-    return " or ".join(units)
+    return tr(" or ").join(units)
 
 
 def _row(name: str, index: int, servo: Servo, measures: Measures) -> tuple[Words, ...]:
@@ -47,9 +49,9 @@ def _row(name: str, index: int, servo: Servo, measures: Measures) -> tuple[Words
 
 def _gripper_row(servo: GripperServo) -> tuple[Words, ...]:
     ends = sorted((servo.closed_us, servo.open_us))
-    return ("gripper", str(servo.channel), DASH, DASH, DASH, *(number(value, 0) for value in ends), _origin(servo))
+    return (tr("gripper"), str(servo.channel), DASH, DASH, DASH, *(number(value, 0) for value in ends), _origin(servo))
 
 
 def _origin(servo: Servo | GripperServo) -> str:
-    words = servo.source or tr("the robot file")
+    words = tr(servo.source) if servo.source else tr("the robot file")
     return tr("assumed ({words})", words=words) if servo.assumed else words

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from itertools import count
 from typing import Literal, NamedTuple
 
 from rvsim.lab.report.air import airy
 from rvsim.lab.report.chart import Chart
+from rvsim.language import tr
 from rvsim.scene import Camera, Scene
 
 Style = Literal["", "bold", "math", "code", "good", "warning", "bad", "muted"]
@@ -111,6 +113,11 @@ class Table:
     note: str = ""
     totals: int = 0
 
+    @property
+    def of_numbers(self) -> bool:
+        """Whether most of its columns are numbers: those stand from left to right in every language."""
+        return 2 * sum(column.align == "right" for column in self.columns) > len(self.columns)
+
 
 @dataclass(frozen=True, eq=False)
 class ScenePicture:
@@ -168,14 +175,14 @@ class Document:
 
 def numbered(document: Document) -> Document:
     """With "1 The robot", "Table 1: …", "Figure 1: …"."""
-    counts = {"Table": 0, "Figure": 0}
+    tables, figures = count(1), count(1)
 
     def captioned(block: Block) -> Block:
-        if not isinstance(block, Table | Figure):
-            return block
-        name = type(block).__name__
-        counts[name] += 1
-        return replace(block, caption=f"{name} {counts[name]}: {block.caption}")
+        if isinstance(block, Table):
+            return replace(block, caption=tr("Table {number}: {words}", number=next(tables), words=block.caption))
+        if isinstance(block, Figure):
+            return replace(block, caption=tr("Figure {number}: {words}", number=next(figures), words=block.caption))
+        return block
 
     sections = tuple(
         replace(section, number=str(number), blocks=tuple(map(captioned, section.blocks)))
