@@ -7,6 +7,7 @@ What the data files say to people is found by MARKED_KEYS. Run in the environmen
 from __future__ import annotations
 
 import ast
+import re
 import sys
 import tomllib
 from collections.abc import Iterable, Iterator
@@ -15,8 +16,12 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
 CATALOGUES = ROOT / "resources" / "languages"
-# Keys of robot files whose texts the window shows.
-MARKED_KEYS: frozenset[str] = frozenset()
+# Keys of robot files whose texts the window shows; citations of documents and names of arms stay as they are.
+MARKED_KEYS = frozenset({
+    "family", "notes", "joint.name", "tool.title", "mass.source", "servo.source", "gripper_servo.source",
+    "joint.max_speed.source", "joint.max_acceleration.source", "joint.max_torque.source",
+})  # fmt: skip
+_SYMBOL = re.compile(r"[a-z]+\d")  # theta1, d3: in any language
 
 
 class Found(NamedTuple):
@@ -61,11 +66,11 @@ def _in_data(root: Path) -> Iterator[tuple[str, str, str]]:
 
 
 def _marked(value: object, key: str = "") -> Iterator[str]:
-    if isinstance(value, str) and key in MARKED_KEYS:
-        yield value
+    if isinstance(value, str) and key in MARKED_KEYS and not _SYMBOL.fullmatch(value):
+        yield value.strip()
     elif isinstance(value, dict):
         for name, inner in value.items():
-            yield from _marked(inner, name)
+            yield from _marked(inner, f"{key}.{name}".lstrip("."))
     elif isinstance(value, list):
         for inner in value:
             yield from _marked(inner, key)
