@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from PySide6.QtCore import QByteArray, QMetaMethod, QObject, QSettings, Signal, SignalInstance
 
-from rvsim.language import LANGUAGES, tr_later
+from rvsim.language import LANGUAGES
 
 
 class Setting(NamedTuple):
@@ -34,7 +34,7 @@ SETTINGS: dict[str, Setting] = {
     "live": Setting(True),
     "arm_follows": Setting(True),
     "all_ghosts": Setting(True),
-    "branch_order": Setting(tr_later("within limits, least motion, largest margin")),
+    "branch_order": Setting("within limits, least motion, largest margin"),
     "presentation": Setting(False),
     "show_plots": Setting(False),
     "plots": Setting("q,qd,deviation"),

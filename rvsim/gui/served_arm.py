@@ -125,6 +125,4 @@ class ServedArm(QObject):
         if self._server is not None and not self._server.running:
             problem = self._server.problem
             self.end()
-            self._session.say(
-                tr("The virtual arm is not served any more. {problem}", problem=problem).strip(), "warning"
-            )
+            self._session.say(f"{tr('The virtual arm is not served any more.')} {problem}".strip(), "warning")

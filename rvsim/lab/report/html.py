@@ -26,7 +26,7 @@ from rvsim.lab.report.values import (
     Words,
     runs,
 )
-from rvsim.language import in_its_order, language, tr
+from rvsim.language import has_right_to_left, in_its_order, language, tr
 
 _TOTAL = ' class="total"'
 
@@ -68,9 +68,15 @@ def _head(document: Document) -> str:
     who = " · ".join(f'<span dir="auto">{escape(text)}</span>' for text in (cover.author, cover.date) if text)
     notes = "".join(f'<p class="own" dir="auto">{escape(line)}</p>\n' for line in _lines(cover.notes))
     return (
-        f'<header>\n<p class="kind">{escape(tr("Laboratory report"))}</p>\n<h1 dir="auto">{escape(cover.title)}</h1>\n'
+        f'<header>\n<p class="kind">{escape(tr("Laboratory report"))}</p>\n'
+        f"<h1{_own_direction(cover.title)}>{escape(cover.title)}</h1>\n"
         f'<p class="who">{who}</p>\n{notes}</header>\n'
     )
+
+
+def _own_direction(text: str) -> str:
+    """That of a text that somebody may have typed in any script; on a page from right to left one mixed of both."""
+    return "" if language().right_to_left and has_right_to_left(text) else ' dir="auto"'
 
 
 def _lines(text: str) -> list[str]:
