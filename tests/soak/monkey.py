@@ -20,8 +20,11 @@ from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication, QMessageBox, QWidget
 
 from rvsim.gui.app import build_window
+from rvsim.gui.language_switch import WindowKeeper
+from rvsim.gui.languages import wear_language
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
+from rvsim.language import language
 
 REMEMBERED = 30
 _PATIENCE = 60  # deeds, after which what stays in front is sent away
@@ -79,8 +82,11 @@ class Life:
         preferences: Preferences | None = None,
     ) -> None:
         self.seed, self.events, self.world, self.watch, self.journal = seed, events, world, watch, journal
-        self._threads = set(threading.enumerate())
-        self.window: MainWindow = build_window(preferences or Preferences(), robot=random.Random(seed).choice(ROBOTS))
+        self._threads, self._language = set(threading.enumerate()), language().code
+        # Another language makes another window.
+        self._keeper = WindowKeeper(
+            build_window(preferences or Preferences(), robot=random.Random(seed).choice(ROBOTS))
+        )
         self.sizes: list[tuple[int, Size]] = []
         self.done = 0
         self._replay, self._measure_every = replay, measure_every
@@ -90,6 +96,11 @@ class Life:
         self._ahead: QWidget | None = None
         self._loop = QEventLoop()
         self._last = "the start"
+
+    @property
+    def window(self) -> MainWindow:
+        """The one that is seen now."""
+        return self._keeper.window
 
     def live(self) -> None:
         """Play until all deeds are done, one of them was to quit, or something was found; then close.
@@ -209,6 +220,9 @@ class Life:
             widget.deleteLater()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
         QCoreApplication.processEvents()
+        app = QApplication.instance()
+        assert isinstance(app, QApplication)
+        wear_language(app, self._language)
         self._await_threads(began)
 
     def _close(self) -> None:

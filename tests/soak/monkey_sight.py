@@ -23,8 +23,11 @@ class Deed(NamedTuple):
 class Playing(Protocol):
     """What the monkey plays with."""
 
-    window: MainWindow
     world: World
+
+    @property
+    def window(self) -> MainWindow:
+        """The one that is seen now."""
 
 
 def front() -> QWidget | None:

@@ -1,6 +1,7 @@
 """Let a monkey loose in the real window, off-screen: clicks, keys, drags, junk in each box, faults, a full disk.
 
-    python tests/soak/soak_window.py [--events 50000] [--life 5000] [--seed 0] [--switches 1000] [--pairs 1]
+    python tests/soak/soak_window.py [--events 50000] [--life 20000] [--seed 0] [--switches 1000] [--pairs 1]
+                                      [--language ar]
     python tests/soak/soak_window.py --replay JOURNAL --seed SEED
 
 Laws: no exception in any thread; no warning from Qt; the event loop comes round within a second of computing; memory
@@ -30,10 +31,12 @@ from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication
 
 from rvsim.gui.app import make_application
+from rvsim.gui.languages import wear_language
 from rvsim.gui.preferences import Preferences
+from rvsim.language import LANGUAGES
 
-# Pictures of texts and formulas are kept up to a number, which is reached after some 6,000 events.
-WARM = 5000  # events, before which a life's size does not count
+# Pictures of texts and formulas are kept up to a number, which is reached after some 8,000 events.
+WARM = 7500  # events, before which a life's size does not count
 GROWTH_MB = 100.0  # that a life may grow by after them
 MEASURED = 2500  # events from one measuring to the next
 SWITCHES_MB = 50.0  # that a thousand robot switches may grow by after the first fifth
@@ -154,6 +157,7 @@ def main() -> int:
     faulthandler.enable()
     app = make_application(["rvsim-soak"])
     app.setQuitOnLastWindowClosed(False)
+    wear_language(app, options.language)
     ledger, began = Ledger(), time.perf_counter()
     if options.together:
         return 0 if together(options.together, options, ledger) else 1
@@ -173,10 +177,11 @@ def main() -> int:
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--events", type=int, default=50_000)
-    parser.add_argument("--life", type=int, default=10_000, help="events in one window")
+    parser.add_argument("--life", type=int, default=20_000, help="events in one window")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--switches", type=int, default=1000, help="robot switches")
     parser.add_argument("--pairs", type=int, default=1, help="how often two programs at once are tried")
+    parser.add_argument("--language", choices=tuple(LANGUAGES), default="en", help="in which each window begins")
     parser.add_argument("--replay", type=Path, help="a journal, whose deeds are done again")
     parser.add_argument("--together", type=Path, help=argparse.SUPPRESS)
     parser.add_argument("--journals", type=Path, default=Path(tempfile.gettempdir()))
