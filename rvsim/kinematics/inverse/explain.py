@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from rvsim.kinematics.inverse.copies import LIMIT_TOLERANCE
 from rvsim.kinematics.inverse.words import branch_title
-from rvsim.language import tr, tr_later, trn
+from rvsim.language import tr, trn
 from rvsim.robot import Joint
 
 if TYPE_CHECKING:
@@ -34,11 +34,12 @@ class Scale(NamedTuple):
 
     def _text(self, value: float, decimals: int) -> str:
         number = round(self.factor * value, decimals) + 0.0  # −0.0 becomes 0.0
-        return f"{number:.{decimals}f}{tr(self.suffix)}".replace("-", "−")
+        text = f"{number:.{decimals}f}".replace("-", "−")
+        return tr("{number} units", number=text) if self.suffix == " units" else text + self.suffix
 
 
 DEGREES, RADIANS = Scale(180.0 / math.pi, 1, "°"), Scale(1.0, 3, " rad")
-MILLIMETRES, METRES, OWN_UNITS = Scale(1e3, 1, " mm"), Scale(1.0, 4, " m"), Scale(1.0, 3, tr_later(" units"))
+MILLIMETRES, METRES, OWN_UNITS = Scale(1e3, 1, " mm"), Scale(1.0, 4, " m"), Scale(1.0, 3, " units")
 
 
 def explain(failure: Failure, angle: Scale = DEGREES, length: Scale = MILLIMETRES) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from rvsim.lab.sources import printed
 from rvsim.lab.worked.figures import Figures, wrapped
-from rvsim.language import tr
+from rvsim.language import sentences, tr
 
 Numbers = Mapping[str, float]
 Note = Callable[[Figures, Numbers], str]
@@ -40,7 +40,7 @@ def _links_000(figures: Figures, k: Numbers) -> str:
     triangle = printed.Triangle(k["w"], k["u"], k["a2"], k["a3"])
     gamma = printed.gamma_000(triangle)
     second, third = printed.shoulder_000(triangle, k["q2"], gamma), printed.elbow_000(triangle, k["q2"])
-    sentences = (
+    return sentences(
         tr(
             "Source 000, (14), prints γ = {printed}; right is {right}: α² + β² is added.",
             printed=figures.text(gamma, "length"),
@@ -53,7 +53,6 @@ def _links_000(figures: Figures, k: Numbers) -> str:
             right=_angle(figures, k["q3"]),
         ),
     )
-    return " ".join(sentences)
 
 
 def _shoulder_000(figures: Figures, printed_q2: float, q2: float) -> str:
@@ -99,7 +98,7 @@ def _wrist_004(figures: Figures, k: Numbers) -> str:
         root = tr("(3.29) draws the root over x² + y² − d₅ cos ψ (here negative); it ends before − d₅ cos ψ.")
     else:
         root = tr("(3.29) draws the root over x² + y² − d₅ cos ψ; it ends before − d₅ cos ψ.")
-    return f"{note} {root}"
+    return sentences(note, root)
 
 
 def _links_004(figures: Figures, k: Numbers) -> str:

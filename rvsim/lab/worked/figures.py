@@ -26,6 +26,7 @@ _MINUS_ZERO = re.compile(r"((?:^|[({,]|\\,) *)-(?=0(?:\.0+)?(?![\d.]))")  # a si
 _FIXED_ANGLE = re.compile(r"([\d.]+)\^\\circ")
 _ROUNDING = 1e-9
 _DEFAULT = Units()
+_UNITS = tr_later("{number} units")
 
 
 class _Style(NamedTuple):
@@ -45,7 +46,7 @@ _STYLES = {
     "rad": _Style(1.0, "radians", "\\,\\mathrm{rad}", " rad"),
     "mm": _Style(1e3, "millimetres", "\\,\\mathrm{mm}", " mm"),
     "m": _Style(1.0, "metres", "\\,\\mathrm{m}", " m"),
-    "units": _Style(1.0, "units", "", tr_later(" units")),
+    "units": _Style(1.0, "units", "", _UNITS),
     "number": _Style(1.0, "number", "", ""),
 }
 
@@ -81,7 +82,8 @@ class Figures:
 
     def text(self, value: float, kind: Kind) -> str:
         """A number with its unit for a sentence."""
-        return self._bare(value, kind).replace("-", "\u2212") + tr(self._styles[kind].word)
+        number, word = self._bare(value, kind).replace("-", "\u2212"), self._styles[kind].word
+        return number + word if word != _UNITS else tr(_UNITS, number=number)
 
     def constant(self, value: float, kind: Kind) -> str:
         """A positive number of the arm's table, as short as it can be said: 90°, π/2."""

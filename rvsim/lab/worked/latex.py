@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from rvsim.kinematics.inverse import branch_title
 from rvsim.lab.worked.values import Equation, Path, Step, WorkedBranch, WorkedSolution
-from rvsim.language import tr
+from rvsim.language import in_english
 
 _HEAD = """\\documentclass{article}
 \\usepackage{amsmath}
@@ -30,31 +29,21 @@ _SIGNS |= {"\\": "\\textbackslash{}", "~": "\\textasciitilde{}", "^": "\\textasc
 
 
 def worked_latex(solution: WorkedSolution, path: Path | None = None) -> str:
-    """The whole solution, or the way to one end of it: a document of align environments; in English it is ASCII."""
+    """The whole solution, or the way to one end of it: a document of align environments; in English, ASCII."""
     steps = solution.steps if path is None else solution.along(path)
     parts = [f"\\section*{{{prose(solution.title)}}}", *(_step(i, step) for i, step in enumerate(steps, 1))]
-    parts += [f"\\subsection*{{{prose(tr('Branches'))}}}", _table(solution.branches)]
-    body = "\n\n".join(parts)
-    return _head(body) + body + "\n\\end{document}\n"
-
-
-def _head(body: str) -> str:
-    """Letters with accents, and quotes of other languages, are in the font encoding T1 only."""
-    return (
-        _HEAD
-        if body.isascii()
-        else _HEAD.replace("\\usepackage{amsmath}", "\\usepackage[T1]{fontenc}\n\\usepackage{amsmath}")
-    )
+    parts += ["\\subsection*{Branches}", _table(solution.branches)]
+    return _HEAD + "\n\n".join(parts) + "\n\\end{document}\n"
 
 
 def prose(text: str) -> str:
-    """A sentence as LaTeX text."""
-    return "".join(_SIGNS.get(sign, sign) for sign in text)
+    """A sentence as LaTeX text, in English: LaTeX sets no Arabic without more packages."""
+    return "".join(_SIGNS.get(sign, sign) for sign in in_english(text))
 
 
 def _step(number: int, step: Step) -> str:
-    where = f" ({branch_title(', '.join(step.path))})" if step.path else ""
-    parts = [f"\\subsection*{{{number}. {prose(step.title + where)}}}", prose(step.text)]
+    where = f" ({', '.join(step.path)})" if step.path else ""
+    parts = [f"\\subsection*{{{number}. {prose(step.title)}{prose(where)}}}", prose(step.text)]
     if step.equations:
         parts.append("\\begin{align*}\n" + " \\\\\n".join(map(_equation, step.equations)) + "\n\\end{align*}")
     parts += [prose(note) for note in (step.failure, step.source_note) if note]
@@ -69,11 +58,11 @@ def _equation(equation: Equation) -> str:
 
 
 def _table(branches: tuple[WorkedBranch, ...]) -> str:
-    rows = [f"{prose(branch.title)} & {prose(_verdict(branch))}" for branch in branches]
+    rows = [f"{prose(branch.label)} & {prose(_verdict(branch))}" for branch in branches]
     return "\\begin{tabular}{lp{0.6\\linewidth}}\n" + " \\\\\n".join(rows) + "\n\\end{tabular}"
 
 
 def _verdict(branch: WorkedBranch) -> str:
     if branch.q is None:
         return branch.reason
-    return tr("within the limits") if branch.within_limits else tr("outside the limits: {reason}", reason=branch.reason)
+    return "within the limits" if branch.within_limits else f"outside the limits: {in_english(branch.reason)}"

@@ -13,7 +13,7 @@ from rvsim.kinematics.inverse.words import ELBOW
 from rvsim.lab.worked.figures import Quantity, wrapped
 from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.values import Path
-from rvsim.language import tr, tr_later
+from rvsim.language import sentences, tr, tr_later
 
 _STRAIGHT = 1e-7  # [rad]
 _LAW = "\\frac{<u>^2+<w>^2-<a2>^2-<a3>^2}{2*<a2>*<a3>}"
@@ -57,7 +57,7 @@ def write_links(book: Notebook, path: Path, u: Quantity, w: Quantity, links: Lin
     bend = float(elbow.bend[0])
     straight = min(bend, math.pi - bend) < _STRAIGHT
     order = sorted(names, key=lambda sign: (names[sign] == ELBOW[1], -sign))
-    text = f"{tr(_TRIANGLE)} {tr(_ONE_POSE if straight else _EITHER)}"
+    text = sentences(tr(_TRIANGLE), tr(_ONE_POSE if straight else _EITHER))
     book.step(path, tr("Elbow: two signs"), text, equation, choices=tuple(names[sign] for sign in order))
     leaning = lift.value if lift else 0.0
     direction, lean = float(elbow.direction[0]), float(elbow.lean[0])
@@ -138,4 +138,4 @@ def _out_of_ring(book: Notebook, away: float, a2: Quantity, a3: Quantity, cosine
             distance=text(nearest - away, "length"),
             radius=text(nearest, "length"),
         )
-    return f"{cannot} {where}"
+    return sentences(cannot, where)

@@ -36,7 +36,7 @@ from rvsim.lab.worked.textbook import (
     solve_spherical,
 )
 from rvsim.lab.worked.values import WorkedBranch, WorkedSolution
-from rvsim.language import tr, tr_later
+from rvsim.language import sentences, tr, tr_later
 from rvsim.robot import Robot
 from rvsim.spatial.arrays import FloatArray, floats
 
@@ -56,6 +56,7 @@ _WRITERS: dict[type[ClosedForm], Writer] = {
 _UNCONFIRMED = tr_later(
     "No solution: so close to a singular pose rounding is too large, and forward kinematics does not confirm it."
 )
+_TITLE = "{robot}: {family}"
 _DEFAULT = Units()
 _SAME = 1e-4  # [rad, m] an end and a branch closer than this are one
 
@@ -84,7 +85,7 @@ def worked_solution(
     book = Notebook(rows_of(form.chain), known, here, units)
     _WRITERS[type(form)](book, pose)
     ends = tuple(_with_verdict(book.figures, robot, end, result.branches) for end in book.ends)
-    return WorkedSolution(f"{robot.title}: {tr(form.title)}", tuple(book.steps), ends)
+    return WorkedSolution(tr(_TITLE, robot=robot.title, family=tr(form.title)), tuple(book.steps), ends)
 
 
 def _with_verdict(figures: Figures, robot: Robot, end: WorkedBranch, branches: Sequence[Branch]) -> WorkedBranch:
@@ -120,4 +121,4 @@ def _broken_limits(figures: Figures, robot: Robot, branch: Branch) -> str:
                     stop=text(stop, kind),
                 )
             )
-    return tr("; ").join(broken)
+    return sentences(*broken, between=tr("; "))

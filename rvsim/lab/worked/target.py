@@ -6,7 +6,7 @@ import numpy as np
 
 from rvsim.lab.worked.figures import Kind, Quantity
 from rvsim.lab.worked.notebook import Notebook
-from rvsim.language import tr, tr_later
+from rvsim.language import sentences, tr, tr_later
 from rvsim.spatial.arrays import FloatArray
 
 _COLUMNS: tuple[Kind, ...] = ("number", "number", "number", "length")
@@ -30,7 +30,7 @@ def write_target(book: Notebook, S: FloatArray, *, flange: bool = True, base: bo
     else:
         text = tr("The wanted pose of the tool in frame 0, with its columns n, o, a and p.")
     if off:
-        text = f"{text} {tr(_TAKEN_OFF[tuple(off)])}"
+        text = sentences(text, tr(_TAKEN_OFF[tuple(off)]))
     name = f"{{}}^{'b' if base else '0'}T_{n if flange else 't'}"
     formula = "\\begin{bmatrix} n & o & a & p \\end{bmatrix}"
     book.step((), tr("The target"), text, book.figures.matrix(name, formula, S[:3], _COLUMNS))

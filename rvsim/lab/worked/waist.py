@@ -12,6 +12,7 @@ from rvsim.lab.worked.notebook import Equations, Notebook
 from rvsim.lab.worked.values import Path
 from rvsim.language import tr, tr_later
 
+_SMALLEST = 1e-300  # [m] in the place of a distance of 0, which nothing can be divided by
 _ON_AXIS = 1e-10  # of the arm's size, as in kinematics.inverse.waist
 
 
@@ -104,7 +105,7 @@ def write_waist(
     choices = names if book.rows.sine[0] > 0.0 else names[::-1]
     free = not D and rho <= _ON_AXIS * book.rows.robot.size
     psi = book.taken((choices[0],), 0) + lead if free else math.atan2(y.value, x.value)
-    gamma = math.asin(max(-1.0, min(1.0, D / rho))) if D else 0.0
+    gamma = math.asin(max(-1.0, min(1.0, D / max(rho, _SMALLEST)))) if D else 0.0
     waist = Waist(x, y, Quantity("\\psi", psi, "angle"), Quantity("\\gamma", gamma, "angle"), ())
     equations = () if free else _equations(book, waist, Quantity("\\rho", rho), offset)
     if rho * rho - D * D < -2.0 * COSINE_TOLERANCE * D * D:

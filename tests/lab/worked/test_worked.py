@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from latex2mathml.converter import convert
 
+from rvsim import language
 from rvsim.files import load_robot, robot_names
 from rvsim.kinematics import forward_kinematics
 from rvsim.kinematics.inverse import branch_labels, inverse_branches, inverse_kinematics, inverse_kinematics_batch
@@ -221,6 +222,14 @@ def test_the_ur5e_says_how_near_the_wrist_is_to_its_axis():
     ]
 
 
+def test_a_tool_on_the_base_axis_of_an_arm_whose_plane_stands_beside_it_is_too_near():
+    _, said = failures("ur5e", at(0.0, 0.0, 0.4, DOWN))
+    assert said == [
+        "No solution: the wrist (axis 5) is 0.0 mm from the base axis and must be at least 133.3 mm away. "
+        "It lies 133.3 mm too near."
+    ]
+
+
 def test_the_other_side_of_the_rrrp_arm_is_a_dead_end_that_says_why():
     robot = load_robot("rrrp")
     solution = worked_solution(robot, forward_kinematics(robot, [0.3, 0.4, 0.5, 1.5]))
@@ -323,6 +332,26 @@ def test_the_latex_is_a_whole_document_in_ascii_with_balanced_braces(name):
     assert depth == 0
     begun, ended = (re.findall(rf"\\{word}{{(\w+\*?)}}", text) for word in ("begin", "end"))
     assert sorted(begun) == sorted(ended)
+
+
+class Marked(dict):
+    """A catalogue that has other words for every text."""
+
+    def get(self, text, default=None):
+        return (f"«{text}»",)
+
+
+@pytest.mark.parametrize("name", ARMS)
+@pytest.mark.parametrize("scale", [1.0, 1.3, 0.2, 0.0])
+def test_the_latex_is_the_same_in_any_language(name, scale, monkeypatch):
+    robot = load_robot(name)
+    T = forward_kinematics(robot, robot.home)
+    T[:3, 3] *= scale
+    english = worked_latex(worked_solution(robot, T))
+    monkeypatch.setattr(language, "_spoken", (language.LANGUAGES["ar"], language.Catalogue(Marked(), lambda _: 0)))
+    said = worked_solution(robot, T)
+    assert "«" in said.steps[0].text
+    assert worked_latex(said) == english
 
 
 _ARGUMENT = r"(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\[a-zA-Z]+|\w)"
