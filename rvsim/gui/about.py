@@ -47,7 +47,10 @@ class AboutDialog(QDialog):
 
     def _head(self) -> QHBoxLayout:
         version = tr("Version {version}", version=rvsim.__version__)
-        title = QLabel(f"<span style='font-size: large; font-weight: 600'>rvsim</span><br>{version}")
+        side = "right" if self.isRightToLeft() else "left"  # the name alone would put it at the left
+        title = QLabel(
+            f"<p align='{side}'><span style='font-size: large; font-weight: 600'>rvsim</span><br>{version}</p>"
+        )
         icon = QLabel()
         icon.setPixmap(QIcon(str(resource("icons", "rvsim.svg"))).pixmap(_ICON, _ICON))
         row = QHBoxLayout()

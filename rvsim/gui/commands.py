@@ -317,10 +317,11 @@ class Commands(QObject):
 
     def show_shortcuts(self) -> None:
         """All shortcuts in one table."""
-        rows = "".join(
-            f"<tr><td>{menu}</td><td>&nbsp;{text}&nbsp;</td><td><b>{left_to_right(keys)}</b></td></tr>"
-            for menu, text, keys in shortcut_table(self._window)
-        )
+        onward = -1 if self._window.isRightToLeft() else 1
+        rows = ""
+        for menu, text, keys in shortcut_table(self._window):
+            cells = menu, f"&nbsp;{text}&nbsp;", f"<b>{left_to_right(keys)}</b>"
+            rows += f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells[::onward])}</tr>"
         boxes = tr("In a value box: ↑ ↓ step 1, with Shift 10, with Ctrl 0.1.")
         scene = tr("In the scene: arrows turn, + and − zoom.")
         self._tell(tr("Keyboard shortcuts"), f"<table>{rows}</table><p>{boxes} {scene}</p>")

@@ -222,8 +222,13 @@ class PlotsPanel(QWidget):
                     time=format_number(time, 2),
                 )
             )
-        self.readout.setText("&nbsp; ".join(parts))
+        self.readout.setText("&nbsp; ".join(f"{self._direction}{part}" for part in parts))
         self.readout.setToolTip(tr(_READOUT_TIP))
+
+    @property
+    def _direction(self) -> str:
+        """A sign that is not seen: what follows is written from right to left, even where it begins with "J1"."""
+        return "\u200f" if self.isRightToLeft() else ""
 
     def _read_from(self, name: str) -> None:
         """Read out the plot under the mouse."""

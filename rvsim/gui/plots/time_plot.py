@@ -30,6 +30,7 @@ from rvsim.language import left_to_right, tr
 from rvsim.robot.arrays import FloatArray
 
 _AXIS_WIDTH = 52
+_TITLE_MARGIN = 4  # [pixels]
 _ROOM = 0.06  # of the range, above and below
 _NEAR = 0.4  # a limit that far beyond a curve, in parts of its range, is shown
 _BAND_ALPHA = 26
@@ -58,6 +59,8 @@ class TimePlot(QWidget):
         # where the garbage of one without a parent could be collected.
         self.plot = pg.PlotWidget(self, background=None)
         self.plot.hide()
+        for part in (self.plot, self.plot.getPlotItem()):  # time runs from left to right in every language
+            part.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.plot.setMouseEnabled(x=False, y=False)
         self.plot.hideButtons()
         self.plot.getAxis("left").setWidth(_AXIS_WIDTH)
@@ -137,7 +140,13 @@ class TimePlot(QWidget):
         self.plot.showGrid(x=True, y=True, alpha=0.15)
         unit = f" [{self._drawing.unit}]" if self._drawing.unit else ""
         size = f"{self.font().pointSizeF():.1f}pt"
-        self.plot.setTitle(f"{tr(self._drawing.title)}{unit}", color=theme.text, size=size)
+        self.plot.setTitle(f"{self._short_title(unit)}{unit}", color=theme.text, size=size)
+
+    def _short_title(self, unit: str) -> str:
+        """The title as far as there is room beside its unit: a longer one would push the curves out of sight."""
+        metrics = self.fontMetrics()
+        room = self.width() - _AXIS_WIDTH - metrics.horizontalAdvance(unit) - _TITLE_MARGIN
+        return metrics.elidedText(tr(self._drawing.title), Qt.TextElideMode.ElideRight, room)
 
     def _is_near(self, band: Band) -> bool:
         """Whether its curve comes near to the limit: all limits of all joints at once would hide the curves."""
