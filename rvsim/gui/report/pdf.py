@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from PySide6.QtCore import QMarginsF, QPointF
+from PySide6.QtCore import QBuffer, QIODevice, QMarginsF, QPointF
 from PySide6.QtGui import QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
 
 from rvsim.errors import FileWriteError
@@ -103,7 +103,9 @@ def write_pdf(sheets: Sheets, path: Path) -> Iterator[None]:
     Raises:
         FileWriteError: the file cannot be written.
     """
-    writer = QPdfWriter(str(path))
+    buffer = QBuffer()  # Qt itself says nothing of a disk that is full
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    writer = QPdfWriter(buffer)
     cover = sheets.document.cover
     writer.setTitle(without_isolates(cover.title))
     writer.setAuthor(cover.author)
@@ -112,13 +114,11 @@ def write_pdf(sheets: Sheets, path: Path) -> Iterator[None]:
     writer.setPageLayout(
         QPageLayout(QPageSize(QPageSize.PageSizeId.A4), QPageLayout.Orientation.Portrait, QMarginsF(0, 0, 0, 0))
     )
-    painter = QPainter()
-    if not painter.begin(writer):
-        raise FileWriteError(path, tr("the file cannot be opened for writing"))
+    painter = QPainter(writer)
     try:
         for number in range(len(sheets.pages)):
-            if number and not writer.newPage():
-                raise FileWriteError(path, tr("the disk may be full"))
+            if number:
+                writer.newPage()
             painter.save()
             painter.scale(_RESOLUTION / 72.0, _RESOLUTION / 72.0)
             sheets.paint(painter, number)
@@ -126,3 +126,7 @@ def write_pdf(sheets: Sheets, path: Path) -> Iterator[None]:
             yield
     finally:
         painter.end()
+    try:
+        path.write_bytes(bytes(buffer.data().data()))
+    except OSError as problem:
+        raise FileWriteError(path, (problem.strerror or str(problem)).lower()) from None
