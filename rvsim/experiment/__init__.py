@@ -12,7 +12,7 @@ from rvsim.experiment.experiment import (
 )
 from rvsim.experiment.load import NO_LOAD, Load, WrenchAxes
 from rvsim.experiment.notes import NO_NOTES, Notes
-from rvsim.experiment.session_state import CameraView, DeviceSettings, SessionState, View
+from rvsim.experiment.session_state import CameraView, DeviceSettings, SessionState, TrackedFrom, View
 from rvsim.experiment.shapes import SHAPE_KINDS, Placement, Shape
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     "Placement",
     "SessionState",
     "Shape",
+    "TrackedFrom",
     "TrajectoryTask",
     "View",
     "WrenchAxes",

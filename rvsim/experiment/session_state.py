@@ -42,10 +42,30 @@ class CameraView:
 
 
 @dataclass(frozen=True, eq=False)
+class TrackedFrom:
+    """Where the tracking of a path began, so that tracking it again gives the same motion.
+
+    Args:
+        near: (n,) the pose [rad, m] in which it was tracked, nearest to which its branches are.
+        start: (n,) the pose [rad, m] in which the motion begins.
+        lifts: the numbers of the points before which a repair lifts the pen, counted from 0.
+    """
+
+    near: FloatArray
+    start: FloatArray
+    lifts: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "near", frozen_array("near", self.near, (-1,)))
+        object.__setattr__(self, "start", frozen_array("start", self.start, (-1,)))
+
+
+@dataclass(frozen=True, eq=False)
 class View:
     """How it is looked at: the camera, the arm's look, the panel or page in front, and how motions are played.
 
-    `tracked` is the path that had been tracked, "" for none: who opens the session tracks it again.
+    `tracked` is the path that had been tracked, "" for none: who opens the session tracks it again, from where
+    `tracked_from` says; None is the present pose.
     """
 
     camera: CameraView | None = None
@@ -54,6 +74,7 @@ class View:
     speed: float = 1.0
     loop: bool = False
     tracked: Tracked = ""
+    tracked_from: TrackedFrom | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,3 +85,8 @@ class SessionState:
     left: tuple[Experiment, ...] = ()
     device: DeviceSettings = DeviceSettings()
     view: View = View()
+
+    def __post_init__(self) -> None:
+        began, dof = self.view.tracked_from, self.experiment.robot.dof
+        for name, q in () if began is None else (("near", began.near), ("start", began.start)):
+            frozen_array(f"{name} of the tracked path", q, (dof,))

@@ -49,7 +49,8 @@ def view_of(window: MainWindow) -> View:
     preferences = window.preferences
     loop = window.player_bar.loop.isChecked()
     look, panel, speed = preferences["look"], window.docks.front_page, preferences["speed"]
-    return View(seen, look, panel, speed, loop, window.tracker.asked_for)
+    tracker = window.tracker
+    return View(seen, look, panel, speed, loop, tracker.asked_for, tracker.began)
 
 
 def show_state(window: MainWindow, state: SessionState) -> None:
@@ -62,7 +63,7 @@ def show_state(window: MainWindow, state: SessionState) -> None:
         window.library.remember(one.robot)
     window.session.begin(_fitting(window, state.experiment), left)
     port_section(window).show_settings(state.device)
-    window.tracker.track_quietly(state.view.tracked)
+    window.tracker.track_quietly(state.view.tracked, state.view.tracked_from)
     show_view(window, state.view)
 
 

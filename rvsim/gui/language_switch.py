@@ -58,7 +58,7 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     new.lay_out(geometry, QByteArray() if mirrored else layout)
     port_section(new).show_settings(port)
     new.document.take_over(old.document)
-    new.tracker.track_quietly(view.tracked)
+    new.tracker.track_quietly(view.tracked, view.tracked_from)
     new.motion.take_over(old.motion)
     new.device.take_over(old.device)
     new.served.take_over(old.served)

@@ -234,4 +234,5 @@ class Stage(QObject):
         if tracking is None or tracking.path.pen_up is None or not isinstance(trajectory, Trajectory):
             return None
         towards = np.ceil([trajectory.path_index(t) - 1e-9 for t in self._trail_times]).astype(int)
-        return np.asarray(tracking.path.pen_up[towards])
+        another = towards.max(initial=0) >= tracking.samples  # path's motion: that of this one comes at once
+        return None if another else np.asarray(tracking.path.pen_up[towards])

@@ -6,16 +6,17 @@ from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
+import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from rvsim.errors import RvsimError
 from rvsim.experiment import Experiment, limit_violations
-from rvsim.experiment.session_state import Tracked
+from rvsim.experiment.session_state import Tracked, TrackedFrom
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.repair_search import RepairSearch
 from rvsim.gui.session import Session
 from rvsim.gui.workers import LatestWorker
-from rvsim.lab.repairs import Offer, motion_of, path_of
+from rvsim.lab.repairs import Offer, motion_of, path_of, track_lifted
 from rvsim.lab.sentences import Units, tracking_sentence
 from rvsim.language import tr
 from rvsim.motion import Path, Tracking, Trajectory, track
@@ -26,13 +27,14 @@ _REMEMBERED = 8  # results that undo can bring back
 
 
 class _Done(NamedTuple):
-    """A tracking, and the state that it is the result of."""
+    """A tracking, the state that it is the result of, and where it began."""
 
     kind: str
     experiment: Experiment
     tracking: Tracking
     trajectory: Trajectory | None
     text: str
+    began: TrackedFrom
 
     def still_holds(self, experiment: Experiment) -> bool:
         """Whether tracking in that state would give the same, from wherever the arm stands."""
@@ -50,15 +52,27 @@ def _same_task(kind: str, one: Experiment, other: Experiment, *, limits_matter: 
     return same and one.robot is other.robot and (one.ignore_limits == other.ignore_limits or not limits_matter)
 
 
-def _solved(kind: str, experiment: Experiment, path: Path, text: str) -> _Done:
-    tracking = track(experiment.robot, path, near=experiment.q, ignore_limits=experiment.ignore_limits)
-    return _Done(kind, experiment, tracking, motion_of(tracking, experiment), text)
+class _Asked(NamedTuple):
+    """A path that is to be tracked: of which kind, in which state, and from where."""
+
+    kind: str
+    experiment: Experiment
+    began: TrackedFrom
+
+
+def _solved(asked: _Asked, path: Path, text: str) -> _Done:
+    kind, experiment, began = asked
+    tracking = track(experiment.robot, path, near=began.near, ignore_limits=experiment.ignore_limits)
+    if began.lifts and max(began.lifts) < tracking.samples:
+        tracking = track_lifted(tracking, began.lifts)
+    return _Done(kind, experiment, tracking, motion_of(tracking, experiment.at(began.start)), text, began)
 
 
 def _timed_again(done: _Done, experiment: Experiment) -> _Done:
     """The same path as another law and time have it, from where the arm stands now."""
     told = replace(done.experiment, law=experiment.law, path_seconds=experiment.path_seconds, ease=experiment.ease)
-    return done._replace(experiment=told, trajectory=motion_of(done.tracking, experiment))
+    began = replace(done.began, start=experiment.q)
+    return done._replace(experiment=told, trajectory=motion_of(done.tracking, experiment), began=began)
 
 
 def _same_pace(one: Experiment, other: Experiment) -> bool:
@@ -91,7 +105,7 @@ class PathTracker(QObject):
         self.units = Units()  # what it says angles and lengths in
         self._quiet = False  # whether the next result is shown without being played
         self._done: list[_Done] = []  # the last one is shown
-        self._pending: tuple[str, Experiment] | None = None  # what the worker is at
+        self._pending: _Asked | None = None  # what the worker is at
         self._worker = LatestWorker(self)
         self._worker.done.connect(self._on_solved)
         self.search = RepairSearch(session, motion, self, self)
@@ -109,7 +123,9 @@ class PathTracker(QObject):
         """Do what a repair says: in the experiment where it stands there, else with the path alone."""
         now = self._session.experiment
         if offer.experiment is None:
-            self._show(_Done(self.kind, now, offer.tracking, motion_of(offer.tracking, now), offer.title))
+            near = self._done[-1].began.near if self._done else now.q
+            began = TrackedFrom(near, now.q, offer.lifts)
+            self._show(_Done(self.kind, now, offer.tracking, motion_of(offer.tracking, now), offer.title, began))
             self._motion.play()
             return
         retimed = offer.tracking is self._session.tracking
@@ -126,11 +142,22 @@ class PathTracker(QObject):
             return ""
         return "line" if self.kind == "line" else "trajectory"
 
-    def track_quietly(self, kind: Tracked) -> None:
-        """Track this path, "" for none, of a session that has been opened; nothing is played."""
+    @property
+    def began(self) -> TrackedFrom | None:
+        """From where that path is tracked, None for none."""
+        if self._pending is not None:
+            return self._pending.began
+        return None if self._session.tracking is None else self._done[-1].began
+
+    def track_quietly(self, kind: Tracked, began: TrackedFrom | None = None) -> None:
+        """Track this path, "" for none, of a session that has been opened; nothing is played.
+
+        Args:
+            began: from where it had been tracked, None for the present pose.
+        """
         if kind:
             self._quiet = True
-            self._track(kind, tr("Track line") if kind == "line" else tr("Track trajectory"))
+            self._track(kind, tr("Track line") if kind == "line" else tr("Track trajectory"), began)
 
     def track_again(self) -> None:
         """The last path once more, for an arm with other limits; nothing is played."""
@@ -166,7 +193,7 @@ class PathTracker(QObject):
 
     def _on_changed(self, _before: Experiment, after: Experiment) -> None:
         """A result stays as long as it is the result of what stands in the panel; undo brings an earlier one back."""
-        if self._pending is not None and not _same_task(*self._pending, after):
+        if self._pending is not None and not _same_task(*self._pending[:2], after):
             self.cancel()
         shown = self._session.tracking
         if shown is not None and self._done[-1].still_holds(after):
@@ -195,14 +222,15 @@ class PathTracker(QObject):
 
     # --- inside ----------------------------------------------------------------------------------------------------
 
-    def _track(self, kind: str, text: str) -> None:
+    def _track(self, kind: str, text: str, began: TrackedFrom | None = None) -> None:
         self.kind = kind
         experiment = self._session.experiment
+        asked = _Asked(kind, experiment, began or TrackedFrom(experiment.q, experiment.q))
         try:
-            path = path_of(kind, experiment)
-            job = partial(_solved, kind, experiment, path, text)
+            path = path_of(kind, experiment.at(asked.began.near))
+            job = partial(_solved, asked, path, text)
             if takes_long(experiment.robot, path):
-                self._pending = (kind, experiment)
+                self._pending = asked
                 self._worker.ask(job)
                 self.busy_changed.emit(True)
                 self._session.say(tr("Working out {samples} points …", samples=path.samples))
@@ -217,8 +245,10 @@ class PathTracker(QObject):
     def _on_solved(self, done: _Done) -> None:
         self._pending = None
         self.busy_changed.emit(False)
+        asked, now = done.experiment, self._session.experiment
         # The arm may have been moved meanwhile: the way to the path begins where it is now, at the present pace.
-        self._finish(_timed_again(done, self._session.experiment))
+        stayed = np.array_equal(asked.q, now.q) and _same_pace(asked, now)
+        self._finish(done if stayed else _timed_again(done, now))
 
     def _finish(self, done: _Done) -> None:
         self._show(done)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -38,6 +38,7 @@ class Offer:
         tip: what it does and what came of trying it.
         tracking: what came of trying it.
         experiment: the state that leads there, None where only the tracking changes.
+        lifts: the points before which the pen is lifted, where that is what changes.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Offer:
     tip: str
     tracking: Tracking
     experiment: Experiment | None
+    lifts: tuple[int, ...] = ()
 
 
 def path_of(kind: str, experiment: Experiment) -> Path:
@@ -257,21 +259,27 @@ def _vector(robot: Robot, shift: FloatArray, units: Units) -> str:
 def _split(report: Report) -> Offer | None:
     """The pen is lifted before each jump and set down behind it."""
     tracking = report.tracking
-    jumps = [finding.last for finding in report.of("jump") if finding.severity != "good"]
+    found = (finding.last for finding in report.of("jump") if finding.severity != "good")
+    jumps = tuple(jump for jump in found if jump is not None)
     if not jumps:
         return None
-    path = lifted_at(tracking, [jump for jump in jumps if jump is not None])
-    tried = track(tracking.robot, path, near=report.q[0] if len(report.q) else None,
-                  ignore_limits=tracking.ignore_limits)  # fmt: skip
-    up = path.pen_up
+    tried = track_lifted(tracking, jumps)
+    up = tried.path.pen_up
     if up is None or tried.reached_count < tracking.reached_count or not all(up[jump] for jump in tried.jumps):
         return None
     title = trn("Lift the pen once", "Lift the pen {n} times", len(jumps))
     tip = tr("At each jump, and set it down behind it. {outcome}", outcome=_outcome(tried))
-    return Offer("split", title, tip, tried, None)
+    return Offer("split", title, tip, tried, None, jumps)
 
 
-def lifted_at(tracking: Tracking, jumps: list[int]) -> Path:
+def track_lifted(tracking: Tracking, lifts: Sequence[int]) -> Tracking:
+    """The same path tracked with the pen lifted before each of these points, from the first one that is reached."""
+    reached = tracking.q[tracking.reached]
+    near = reached[0] if len(reached) else None
+    return track(tracking.robot, lifted_at(tracking, lifts), near=near, ignore_limits=tracking.ignore_limits)
+
+
+def lifted_at(tracking: Tracking, jumps: Sequence[int]) -> Path:
     """The path with two points more at each jump, above the point before it and above the one behind it, pen up."""
     path, n = tracking.path, tracking.samples
     up = np.zeros(n, dtype=bool) if path.pen_up is None else path.pen_up

@@ -29,6 +29,7 @@ from rvsim.experiment import (
     Notes,
     Placement,
     SessionState,
+    TrackedFrom,
     TrajectoryTask,
     View,
 )
@@ -117,14 +118,18 @@ CAMERAS = st.builds(
     CameraView, SMALL, st.floats(-1.5, 1.5), st.floats(0.1, 2.0), st.booleans(), st.none() | POINT, st.none() | SPEED
 )
 STATES = st.builds(
-    lambda experiment, left, notes, device, view: SessionState(
-        replace(experiment, notes=notes), tuple(replace(one, notes=notes) for one in left), device, view
+    lambda experiment, left, notes, device, view, lifts: SessionState(
+        replace(experiment, notes=notes),
+        tuple(replace(one, notes=notes) for one in left),
+        device,
+        replace(view, tracked="line", tracked_from=TrackedFrom(experiment.q, -experiment.q, lifts)) if lifts else view,
     ),
     experiments(),
     st.lists(experiments(), max_size=1),
     st.builds(Notes, TEXT, TEXT),
     st.builds(DeviceSettings, TEXT, st.integers(1, 10**6), st.sampled_from(("ssc32", "bridge"))),
     st.builds(View, st.none() | CAMERAS, st.sampled_from(("stick", "both")), TEXT, SPEED, st.booleans()),
+    st.lists(st.integers(1, 99), max_size=2).map(tuple),
 )
 
 
@@ -254,6 +259,7 @@ def test_what_is_no_session_is_refused_with_the_place_and_what_was_found(data: b
         (("experiment", "poses"), [{"name": "a", "q": [0] * 5}] * 2, "pose 2: found the name 'a' again"),
         (("experiment", "program"), [{"kind": "fly"}], "experiment, program.*kind"),
         (("experiment", "load", "payload"), -1, "payload: found -1, expected a finite number at least 0"),
+        (("view", "tracked_from"), {"near": [0] * 5, "start": [0] * 4}, "start of the tracked path"),
         (("view", "Camera"), None, "an unknown key, expected a known one. Did you mean 'camera'"),
     ],
 )

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import textwrap
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,8 @@ from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMenu, QMessag
 from pytestqt.qtbot import QtBot
 
 from rvsim.cli.arguments import named_session
-from rvsim.experiment import DeviceSettings, SessionState
+from rvsim.experiment import DeviceSettings, SessionState, TrajectoryTask
+from rvsim.experiment.shapes import TextShape
 from rvsim.files import load_robot, save_robot
 from rvsim.files.session_file import load_session, session_bytes
 from rvsim.gui.app import build_window
@@ -28,6 +30,7 @@ from rvsim.gui.document_state import state_of
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.recovery_dialog import RecoveryDialog, offer_recovery
+from rvsim.lab.repairs import Offer, track_lifted
 
 Button = QMessageBox.StandardButton
 
@@ -130,6 +133,34 @@ def test_a_path_that_was_tracked_is_tracked_again_and_not_played(
     own_window.tracker.clear()
     assert own_window.document.save_to(second)
     assert '"tracked"' not in second.read_text()
+
+
+@pytest.mark.parametrize("repaired", [False, True])
+def test_an_opened_session_has_the_motion_that_was_saved_whatever_came_before_it(
+    own_window: MainWindow, window: MainWindow, qtbot: QtBot, tmp_path: Path, repaired: bool
+) -> None:
+    session, tracker = window.session, window.tracker
+    session.use_robot(window.library["al5b"])
+    tracker.track_line()
+    window.motion.seek(window.motion.player.duration)  # the letter is approached from where the line ends
+    text = TrajectoryTask("text", "down", shape=TextShape(0.03, "RV"))
+    session.edit("Text", replace(session.experiment, trajectory=text))
+    tracker.track_trajectory()
+    qtbot.waitUntil(lambda: not tracker.busy)
+    if repaired:
+        lifted = track_lifted(session.tracking, (40,))
+        tracker.apply(Offer("split", "Lift", "", lifted, None, (40,)))
+    window.motion.seek(window.motion.player.duration)
+    file, second = tmp_path / "first.rvsim", tmp_path / "second.rvsim"
+    assert window.document.save_to(file)
+    assert own_window.document.open(file)
+    qtbot.waitUntil(lambda: not own_window.tracker.busy)
+    one, other = window.motion.player, own_window.motion.player
+    assert one.duration == other.duration
+    times = np.linspace(0.0, one.duration, 40)
+    np.testing.assert_array_equal(one.trajectory.q(times), other.trajectory.q(times))
+    assert own_window.document.save_to(second)
+    assert second.read_bytes() == file.read_bytes()
 
 
 def test_the_title_says_name_arm_and_whether_there_is_something_to_save(window: MainWindow, tmp_path: Path) -> None:

@@ -30,7 +30,7 @@ from rvsim.experiment import (
     View,
     WrenchAxes,
 )
-from rvsim.experiment.session_state import Language, Look, Tracked
+from rvsim.experiment.session_state import Language, Look, Tracked, TrackedFrom
 from rvsim.experiment.shapes import FormulaStage, Join, TextShape
 from rvsim.files.place import Place, shown
 from rvsim.files.session.kinds import (
@@ -60,7 +60,7 @@ _UNITS_NOTE = (
     "radians, metres, seconds, kilograms, newtons; moves and the arm's file in degrees, millimetres, percent, "
     "as in files of their own"
 )
-_MOST_POSES, _MOST_SAMPLES, _MOST_LEFT = 2000, 20_001, 64
+_MOST_POSES, _MOST_SAMPLES, _MOST_LEFT, _MOST_JOINTS = 2000, 20_001, 64, 1000
 _NAME = Words(60, shortest=1)
 _POINT = Reals(3, tr_later("a list of 3 numbers: x, y, z"))
 _TURN = Reals(3, tr_later("a list of 3 numbers: roll, pitch, yaw"))
@@ -320,6 +320,15 @@ _CAMERA = Record(
     ),
     lambda **parts: CameraView(**parts),
 )
+_POSE = Many("joint", Real(), _MOST_JOINTS, fewest=1)
+_TRACKED_FROM = Record(
+    (
+        Field("near", _POSE),
+        Field("start", _POSE),
+        Field("lifts", Many("point", Whole(1, 2 * _MOST_SAMPLES), _MOST_SAMPLES), (), sparse=True),
+    ),
+    lambda **parts: TrackedFrom(**parts),
+)
 _VIEW = Record(
     (
         Field("camera", Maybe(_CAMERA), None),
@@ -328,6 +337,7 @@ _VIEW = Record(
         Field("speed", Real(1e-3, 1e3), 1.0),
         Field("loop", Flag(), False),
         Field("tracked", Choice(get_args(Tracked)), "", sparse=True),
+        Field("tracked_from", Maybe(_TRACKED_FROM), None, sparse=True),
     ),
     View,
 )
