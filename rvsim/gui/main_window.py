@@ -54,7 +54,7 @@ from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.undo_words import UndoWords
 from rvsim.gui.widgets import ElidedLabel, column_of
-from rvsim.language import language, tr, tr_later
+from rvsim.language import again, language, tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.device.driver.state import DriverState
@@ -243,7 +243,7 @@ class MainWindow(QMainWindow):
         self._told_time = QElapsedTimer()
         self.renderer_label = QLabel(choice.name)
         self.renderer_label.setObjectName("renderer_label")
-        self.renderer_label.setToolTip(choice.reason)
+        self.renderer_label.setToolTip(again(choice.reason))
         set_role(self.renderer_label, role="muted")
         self.statusBar().addWidget(self.message, 1)
         self.device_label = QLabel()
@@ -288,7 +288,7 @@ class MainWindow(QMainWindow):
         if self._told_time.isValid() and self._told_time.elapsed() < _TELL_MS:
             return
         self._told_time.start()
-        self.renderer_label.setText(f"{self.scene_view.renderer.description}, {milliseconds:.1f} ms")
+        self.renderer_label.setText(f"{tr(self.scene_view.renderer.description)}, {milliseconds:.1f} ms")
 
     def _show_device(self, state: DriverState | None) -> None:
         words = f"● {phase_words(state, self.device.title)}"
