@@ -27,6 +27,7 @@ class PlayerBar(QWidget):
     def __init__(self, motion: MotionControl, preferences: Preferences, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("player_bar")
+        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as time runs in the plots, in any language
         self._motion, self._preferences = motion, preferences
         self._least = 0  # [pixels] that signs, slider, speed and loop need
         self.play = self._button("play_button", tr("▶ Play"), tr("Play or pause (F5)"), motion.toggle)

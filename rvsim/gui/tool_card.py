@@ -113,8 +113,8 @@ class ToolCard(QLabel):
         slanted.setItalic(True)
         names, numbers, _ = self._columns()
         height = self.fontMetrics().height()
-        left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
-        right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        middle = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignAbsolute  # or the language decides what is left
+        left, right = Qt.AlignmentFlag.AlignLeft | middle, Qt.AlignmentFlag.AlignRight | middle
         for line, row in enumerate(self._rows):
             x, y = _PADDING_X, _PADDING_Y + line * height
             for i, (name, number) in enumerate(zip(row.names, row.numbers, strict=True)):
