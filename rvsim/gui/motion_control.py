@@ -74,8 +74,14 @@ class MotionControl(QObject):
         trajectory, time = other.player.trajectory, other.player.time
         if trajectory is not None:
             self.load(trajectory, again(other._text), other.opening_at)
+            self.wait_at(time)
+
+    def wait_at(self, time: float) -> None:
+        """Hold a moment [s] in which the arm stands already."""
+        if self.player.trajectory is not None and time != self.player.time:
             self.player.seek(time)
-            self.moved.emit(time)
+            self.moved.emit(self.player.time)
+            self._tell()
 
     @property
     def opening(self) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -21,9 +22,11 @@ from rvsim.lab.sentences import Units, tracking_sentence
 from rvsim.language import tr
 from rvsim.motion import Path, Tracking, Trajectory, track
 from rvsim.robot import Robot
+from rvsim.robot.arrays import FloatArray
 
 _AT_ONCE, _AT_ONCE_FREE = 250, 40  # points that are tracked without a worker
 _REMEMBERED = 8  # results that undo can bring back
+_SAME = 1e-9  # [rad, m] between poses that are one
 
 
 class _Done(NamedTuple):
@@ -35,6 +38,7 @@ class _Done(NamedTuple):
     trajectory: Trajectory | None
     text: str
     began: TrackedFrom
+    time: float = 0.0  # [s] the moment that was shown when it was last in the player
 
     def still_holds(self, experiment: Experiment) -> bool:
         """Whether tracking in that state would give the same, from wherever the arm stands."""
@@ -75,6 +79,15 @@ def _timed_again(done: _Done, experiment: Experiment) -> _Done:
     return done._replace(experiment=told, trajectory=motion_of(done.tracking, experiment), began=began)
 
 
+def _moment_of(done: _Done, now: float, q: FloatArray) -> float:
+    """The moment [s] of its motion in which the arm stands there; where none is known the one that was shown last."""
+    moving = done.trajectory
+    if moving is None:
+        return 0.0
+    moments = (now, done.time, 0.0, moving.duration)
+    return next((time for time in moments if np.allclose(moving.q(time), q, rtol=0.0, atol=_SAME)), now or done.time)
+
+
 def _same_pace(one: Experiment, other: Experiment) -> bool:
     return (one.law, one.path_seconds, one.ease) == (other.law, other.path_seconds, other.ease)
 
@@ -105,6 +118,7 @@ class PathTracker(QObject):
         self.units = Units()  # what it says angles and lengths in
         self._quiet = False  # whether the next result is shown without being played
         self._done: list[_Done] = []  # the last one is shown
+        self._belonging: WeakKeyDictionary[Experiment, _Done] = WeakKeyDictionary()  # to the states before the present
         self._pending: _Asked | None = None  # what the worker is at
         self._worker = LatestWorker(self)
         self._worker.done.connect(self._on_solved)
@@ -188,37 +202,47 @@ class PathTracker(QObject):
     def clear(self) -> None:
         """Take the tracked path and its motion out."""
         self._done = []
+        self._belonging.clear()
         self._motion.load(None, "")
         self._session.set_tracking(None)
 
-    def _on_changed(self, _before: Experiment, after: Experiment) -> None:
+    def _on_changed(self, before: Experiment, after: Experiment) -> None:
         """A result stays as long as it is the result of what stands in the panel; undo brings an earlier one back."""
         if self._pending is not None and not _same_task(*self._pending[:2], after):
             self.cancel()
-        shown = self._session.tracking
-        if shown is not None and self._done[-1].still_holds(after):
-            if not _same_pace(self._done[-1].experiment, after):
-                self._time_again(after)
-            return
-        known = next((done for done in reversed(self._done) if done.still_holds(after)), None)
+        shown = self._done[-1] if self._session.tracking is not None else None
+        if shown is not None:
+            self._belonging[before] = shown._replace(time=self._motion.player.time)
+        known = self._known(after, shown)
         if known is not None:
-            self._done.remove(known)
-            self._show(known if _same_pace(known.experiment, after) else _timed_again(known, after))
+            self._bring_back(known, shown, after)
         elif shown is not None:
             self._motion.load(None, "")
             self._session.set_tracking(None)
             self._session.say(tr("Changed: track it again to see what the arm can do now."))
+
+    def _known(self, experiment: Experiment, shown: _Done | None) -> _Done | None:
+        """The result that belonged to that state; else the one that is shown, or an earlier one, if it still holds."""
+        # Of the same kind: who changes the letter is not shown the line that was tracked before it.
+        earlier = (one for one in reversed(self._done) if one.kind == self.kind)
+        known = (self._belonging.get(experiment), shown, *earlier)
+        return next((one for one in known if one is not None and one.still_holds(experiment)), None)
+
+    def _bring_back(self, known: _Done, shown: _Done | None, experiment: Experiment) -> None:
+        """Show a result at the present pace, at the moment in which the arm stands there."""
+        if not _same_pace(known.experiment, experiment):
+            known = _timed_again(known, experiment)
+        if shown is None or known.trajectory is not shown.trajectory:
+            self._done = [one for one in self._done if one.tracking is not known.tracking]
+            self._show(known)
+        if self._motion.player.trajectory is known.trajectory and not self._session.continuing:
+            self._motion.wait_at(_moment_of(known, self._motion.player.time, experiment.q))
 
     @property
     def trajectory(self) -> Trajectory | None:
         """The motion along what is tracked, None when nothing is."""
         shown = self._session.tracking is not None and self._done  # neither, while it is being taken out
         return self._done[-1].trajectory if shown else None
-
-    def _time_again(self, experiment: Experiment) -> None:
-        """Another law or time for what is shown: nothing has to be solved for that."""
-        self._done[-1] = _timed_again(self._done[-1], experiment)
-        self._motion.load(self._done[-1].trajectory, self._done[-1].text)
 
     # --- inside ----------------------------------------------------------------------------------------------------
 

@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtWidgets import QComboBox, QPushButton, QSpinBox
 from pytestqt.qtbot import QtBot
 
-from rvsim.experiment import TrajectoryTask
+from rvsim.experiment import Load, TrajectoryTask
 from rvsim.gui.motion_control import MotionControl
 from rvsim.gui.panels.path import PathPanel
 from rvsim.gui.tracker import PathTracker
@@ -168,6 +168,49 @@ def test_a_result_goes_with_what_it_was_the_result_of_and_undo_brings_it_back(pa
     panel.line.button.click()
     assert session.tracking is not None
     assert session.tracking is not tracking
+
+
+def test_undo_brings_back_the_motion_of_what_was_edited_at_the_moment_that_was_shown(
+    panel: PathPanel, qtbot: QtBot
+) -> None:
+    session, tracker = panel.line._session, panel.result._tracker
+    player = tracker._motion.player
+    tracker.track_line()
+    session.edit("Circle", replace(session.experiment, trajectory=TrajectoryTask("circle", "free")))
+    tracker.track_trajectory()
+    qtbot.waitUntil(lambda: not tracker.busy)
+    circle = session.tracking
+    for time in (0.5 * player.duration, player.duration):
+        tracker._motion.seek(time)
+        time = player.time
+        smaller = replace(session.experiment.trajectory, height=0.2)
+        session.edit("Change the circle", replace(session.experiment, trajectory=smaller))
+        assert session.tracking is None  # and not the line
+        assert player.trajectory is None
+        session.undo_stack.undo()
+        assert session.tracking is circle
+        assert player.time == time
+        np.testing.assert_allclose(player.q, session.q, atol=1e-12)
+
+
+def test_undo_and_redo_show_the_motion_that_belonged_to_each_state(panel: PathPanel, qtbot: QtBot) -> None:
+    session, tracker = panel.line._session, panel.result._tracker
+    player, stack = tracker._motion.player, session.undo_stack
+    shown = []
+    for number, track in enumerate((tracker.track_line, tracker.track_trajectory, tracker.track_line)):
+        session.edit("Take a circle", replace(session.experiment, trajectory=TrajectoryTask("circle", "free")))
+        track()
+        qtbot.waitUntil(lambda: not tracker.busy)
+        session.edit("Another time", replace(session.experiment, path_seconds=3.0 + number))
+        tracker._motion.seek(0.4 * player.duration)
+        shown.append((stack.index(), session.tracking, player.trajectory, player.time))
+        session.edit("Load", session.experiment.with_load(Load(payload=0.1 * number)))
+    for index, tracking, trajectory, time in (*reversed(shown), *shown):
+        stack.setIndex(index)
+        assert session.tracking is tracking
+        assert player.trajectory is trajectory
+        assert player.time == time
+        np.testing.assert_allclose(player.q, session.q, atol=1e-12)
 
 
 def seconds_on_the_path(tracker: PathTracker) -> float:
