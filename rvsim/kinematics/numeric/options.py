@@ -67,8 +67,24 @@ class SolverOptions:
                 raise SettingError(name, getattr(self, name), tr("above 0"))
         if len(self.weights) != 6 or not all(0.0 <= weight < math.inf for weight in self.weights):
             raise SettingError("weights", self.weights, tr("six numbers of at least 0"))
+        _check_range("weights", max(self.weights), 0.0, _LARGEST)
+        for name, (least, most) in _WITHIN.items():
+            _check_range(name, getattr(self, name), least, most)
 
 
+def _check_range(name: str, value: float, least: float, most: float) -> None:
+    if not least <= value <= most:
+        rule = tr("a finite number at least {least:g} and at most {most:g}", least=least, most=most)
+        raise SettingError(name, value, rule)
+
+
+_LARGEST = 1e9  # of what is squared and multiplied: beyond it there is nothing to find, and numbers overflow
+_WITHIN = {
+    "length": (1e-9, _LARGEST),
+    "damping": (0.0, _LARGEST),
+    "damping_bias": (0.0, _LARGEST),
+    "seed": (0, 2**63 - 1),
+}
 _POSITIVE = ("max_iterations", "max_time", "length", "position_tolerance", "rotation_tolerance", "step_limit")
 
 

@@ -237,6 +237,11 @@ def test_what_makes_no_sense_is_refused_with_its_name() -> None:
         SolverOptions(max_iterations=0)
     with pytest.raises(SettingError, match="weights"):
         SolverOptions(weights=(1.0, 1.0, 1.0, 1.0, 1.0, -1.0))
+    for setting in ({"damping": 1e308}, {"damping_bias": np.inf}, {"length": 1e-320}, {"weights": (1e308,) * 6}):
+        with pytest.raises(SettingError, match=next(iter(setting))):
+            SolverOptions(**setting)  # type: ignore[arg-type]
+    with pytest.raises(SettingError, match="seed"):
+        SolverOptions(seed=-1)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
