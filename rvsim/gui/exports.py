@@ -32,10 +32,11 @@ def motion_table(session: Session, motion: MotionControl, units: TableUnits = "s
 
 def script(session: Session, motion: MotionControl) -> str | None:
     """The script of the tracked path, or else of the motion that is loaded; None when there is neither."""
+    loaded = motion.player.trajectory
+    trajectory = loaded if isinstance(loaded, Trajectory) else None
     if session.tracking is not None and session.tracking.reached_count:
-        return tracking_script(session.tracking)
-    trajectory = motion.player.trajectory
-    if not isinstance(trajectory, Trajectory):
+        return tracking_script(session.tracking, trajectory)
+    if trajectory is None:
         return None
     times = np.linspace(0.0, trajectory.duration, _samples(trajectory, _MOST_IN_SCRIPT))
     return motion_script(session.robot, times, trajectory.q(times))

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
+import numpy as np
 from numpy.typing import ArrayLike
 
 from rvsim.errors import ShapeError
 from rvsim.lab.texts import matrix_numpy
-from rvsim.motion import Tracking
+from rvsim.motion import Tracking, Trajectory
+from rvsim.motion.point_times import point_times
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray, frozen_array
 
@@ -29,8 +33,8 @@ T_BASE_0 = {base}
 
 T_FLANGE_TOOL = {tool}
 
-# When [s], and where the joints are then: one row a pose.
-TIMES = {times}
+# {clock}, and where the joints are then: one row a pose.
+{counted} = {times}
 
 Q = {q}
 
@@ -77,20 +81,20 @@ def forward_kinematics(q):
 
 def main():
     points = np.array([forward_kinematics(q)[:3, 3] for q in Q])
-    columns = [TIMES[:, None], points]
-    names = ["t", "x", "y", "z"]
+    columns = [{counted}[:, None], points]
+    names = ["{column}", "x [{short}]", "y [{short}]", "z [{short}]"]
     if WANTED is not None:
         deviation = np.linalg.norm(points - WANTED, axis=1)
         columns.append(deviation[:, None])
-        names.append("deviation")
+        names.append("deviation [{short}]")
     print(",".join(names))
     for row in np.hstack(columns):
         print(",".join(repr(float(value)) for value in row))
-    print("way,", float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum()), sep="")
+    print("way [{short}],", float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum()), sep="")
     if WANTED is not None:
-        print("rms,", float(np.sqrt(np.mean(deviation**2))), sep="")
-        print("max,", float(deviation.max()), sep="")
-        print("mean,", float(deviation.mean()), sep="")
+        print("rms [{short}],", float(np.sqrt(np.mean(deviation**2))), sep="")
+        print("max [{short}],", float(deviation.max()), sep="")
+        print("mean [{short}],", float(deviation.mean()), sep="")
 
 
 if __name__ == "__main__":
@@ -98,11 +102,24 @@ if __name__ == "__main__":
 '''
 
 
-def motion_script(robot: Robot, times: ArrayLike, q: ArrayLike, wanted: ArrayLike | None = None) -> str:
+class _Clock(NamedTuple):
+    """What stands in the first column of the numbers: what it is, its name in the script, and in the output."""
+
+    clock: str
+    counted: str
+    column: str
+
+
+_SECONDS, _POINTS = _Clock("When [s]", "TIMES", "t [s]"), _Clock("Which point of the path", "POINTS", "point")
+
+
+def motion_script(
+    robot: Robot, times: ArrayLike, q: ArrayLike, wanted: ArrayLike | None = None, *, numbered: bool = False
+) -> str:
     """The script that prints t, x, y, z (and the deviation) of each pose, the length of the way, RMS, max and mean.
 
     Args:
-        times: (m,) [s].
+        times: (m,) [s], or where `numbered` the numbers of points.
         q: (m, n) the poses [rad, m], at least one.
         wanted: (m, 3) where the tool should be [m].
 
@@ -114,9 +131,11 @@ def motion_script(robot: Robot, times: ArrayLike, q: ArrayLike, wanted: ArrayLik
         raise ShapeError("q", f"(at least 1, {robot.dof})", poses.shape)
     places = None if wanted is None else frozen_array("wanted", wanted, (len(poses), 3))
     author, moves = _MOVES[robot.convention]
+    in_metres = robot.length_unit == "millimetre"
+    clock = (_POINTS if numbered else _SECONDS)._asdict()
     head = _HEAD.format(
         title=_plain(robot.title),
-        unit="metres" if robot.length_unit == "millimetre" else "the arm's own unit",
+        unit="metres" if in_metres else "the arm's own unit",
         names=", ".join(map(_plain, robot.joint_names)),
         dh=matrix_numpy(robot.dh),
         revolute=robot.is_revolute.tolist(),
@@ -125,16 +144,28 @@ def motion_script(robot: Robot, times: ArrayLike, q: ArrayLike, wanted: ArrayLik
         times=matrix_numpy(frozen_array("times", times, (len(poses),))),
         q=matrix_numpy(poses),
         wanted=None if places is None else matrix_numpy(places),
+        **clock,
     )
-    return head + _BODY.replace("{author}", author).replace("{moves}", moves)
+    body = _BODY
+    for name, text in {**clock, "author": author, "moves": moves, "short": "m" if in_metres else "unit"}.items():
+        body = body.replace(f"{{{name}}}", text)
+    return head + body
 
 
-def tracking_script(tracking: Tracking) -> str | None:
-    """The script of the reached points of a tracked path, t being their index; None when there is none."""
+def tracking_script(tracking: Tracking, trajectory: Trajectory | None = None) -> str | None:
+    """The script of the reached points of a tracked path; None when there is none.
+
+    Args:
+        trajectory: the motion, which says when they are passed; without one, or with that of another path, they are
+            numbered.
+    """
     reached: FloatArray = tracking.q[tracking.reached]
     if not len(reached):
         return None
-    return motion_script(tracking.robot, tracking.reached.nonzero()[0], reached, tracking.path.points[tracking.reached])
+    times = None if trajectory is None else point_times(trajectory, tracking)
+    counted = np.flatnonzero(tracking.reached) if times is None else times
+    wanted = tracking.path.points[tracking.reached]
+    return motion_script(tracking.robot, counted, reached, wanted, numbered=times is None)
 
 
 def _plain(name: str) -> str:

@@ -45,6 +45,7 @@ def test_the_tracked_motion_is_written_where_one_says(
         assert session.sentences[-1] == (f"Saved {tmp_path / name}.", "info")
     assert "q1 [deg]" in (tmp_path / "m.csv").read_text(encoding="utf-8")
     assert "WANTED = np.array" in (tmp_path / "m.py").read_text(encoding="utf-8")
+    assert "TIMES = np.array" in (tmp_path / "m.py").read_text(encoding="utf-8")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "none" / "m.csv"), ""))
     ask_motion_csv(parent, session, motion, "si")
     assert session.sentences[-1][1] == "error"

@@ -14,7 +14,7 @@ from rvsim import forward_kinematics, load_robot
 from rvsim.errors import ShapeError
 from rvsim.lab import named_path
 from rvsim.lab.script import motion_script, tracking_script
-from rvsim.motion import joint_move, track
+from rvsim.motion import joint_move, track, trajectory_of
 from rvsim.robot import Robot
 
 # Whatever is imported beside NumPy and what it needs itself ends the script.
@@ -35,7 +35,7 @@ def run(script: str, folder: Path) -> tuple[np.ndarray, dict[str, float]]:
     header, *lines = done.stdout.splitlines()
     rows = [line.split(",") for line in lines]
     table = [[float(cell) for cell in row] for row in rows if len(row) == len(header.split(","))]
-    return np.array(table), {row[0]: float(row[1]) for row in rows if len(row) == 2}
+    return np.array(table), {row[0].split(" ")[0]: float(row[1]) for row in rows if len(row) == 2}
 
 
 @pytest.mark.parametrize("name", ["rv-m1", "ur5e", "rrrp", "cylindrical"])
@@ -54,10 +54,27 @@ def test_the_script_of_a_tracked_path_has_the_same_deviation(tmp_path: Path) -> 
     robot = load_robot("rv-m1")
     tracking = track(robot, named_path("letter-scaled", robot))
     assert not tracking.complete
-    table, totals = run(tracking_script(tracking), tmp_path)
+    motion = trajectory_of(tracking, robot.home)
+    table, totals = run(tracking_script(tracking, motion), tmp_path)
+    assert motion.path_start <= table[0, 0] < table[-1, 0] <= motion.duration
+    assert (np.diff(table[:, 0]) > 0.0).all()
+    np.testing.assert_allclose(motion.q(table[:, 0]), tracking.q[tracking.reached], atol=1e-9)
     np.testing.assert_allclose(table[:, 1:4], tracking.actual[tracking.reached], atol=1e-12)
     assert totals["rms"] == pytest.approx(tracking.rms, abs=1e-12)
     assert totals["max"] == pytest.approx(tracking.max_deviation, abs=1e-12)
+
+
+def test_what_is_printed_has_its_units_and_points_without_a_motion_are_numbered(tmp_path: Path) -> None:
+    robot = load_robot("rv-m1")
+    tracking = track(robot, named_path("letter-scaled", robot))
+    script = tracking_script(tracking, joint_move(robot, robot.home, robot.home + 0.1))
+    table, _ = run(script, tmp_path)
+    assert table[:, 0].tolist() == np.flatnonzero(tracking.reached).tolist()
+    assert '"point", "x [m]"' in script
+    assert '"t [s]", "x [m]"' in tracking_script(tracking, trajectory_of(tracking, robot.home))
+    unitless = load_robot("rrrp")
+    assert unitless.length_unit == "unit"
+    assert '"t [s]", "x [unit]"' in motion_script(unitless, [0.0], unitless.home[None])
 
 
 def craig(robot: Robot) -> Robot:

@@ -177,7 +177,7 @@ def _files(study: Study, order: Order) -> dict[str, _File]:
 
 def _script(study: Study) -> bytes:
     """Of the tracked path, else of the motion, else of the pose alone."""
-    text = None if study.tracking is None else tracking_script(study.tracking)
+    text = None if study.tracking is None else tracking_script(study.tracking, study.trajectory)
     if text is None and study.trajectory is not None and study.curves is not None:
         text = motion_script(study.robot, study.curves.times, study.curves.q)
     return (text or motion_script(study.robot, [0.0], study.q[None])).encode()
