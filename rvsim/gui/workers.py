@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 import threading
 from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
 from queue import SimpleQueue
 from typing import Any
 
@@ -16,7 +18,7 @@ Job = Callable[[], Any]
 class LatestWorker(QObject):
     """Does the latest job it was asked for; a job that was superseded or cancelled reports nothing.
 
-    The thread begins with the first job and ends with `close`.
+    The thread begins with the first job and ends with `close`, or when this object goes.
 
     Signals:
         done(result): in the thread of this object.
@@ -28,6 +30,7 @@ class LatestWorker(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._queue: SimpleQueue[tuple[int, Job] | None] = SimpleQueue()
+        self.destroyed.connect(partial(self._queue.put, None))
         self._thread: threading.Thread | None = None
         self._asked = 0
         self._wanted = 0  # the number of the job whose result counts, 0 for none
@@ -73,11 +76,14 @@ class LatestWorker(QObject):
         """The thread's loop; a job that fails is reported like any other error of a thread."""
         while (entry := self._queue.get()) is not None:
             number, job = entry
+            result = None
             try:
-                self._finished.emit(number, job())
+                result = job()
             except Exception:
+                number = 0
                 threading.excepthook(threading.ExceptHookArgs((*sys.exc_info(), threading.current_thread())))
-                self._finished.emit(0, None)
+            with suppress(RuntimeError):  # this object has gone meanwhile
+                self._finished.emit(number, result)
 
     def _on_finished(self, number: int, result: Any) -> None:
         self._running = False

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+import shiboken6
 
 from rvsim.gui.workers import LatestWorker
 
@@ -53,6 +54,18 @@ def test_it_ends_when_it_is_closed(worker) -> None:
     worker.close()
     assert not any(thread.name == "rvsim-worker" for thread in threading.enumerate())
     worker.close()
+
+
+def test_its_thread_ends_when_it_goes_without_being_closed(qtbot) -> None:
+    made, gate = LatestWorker(), threading.Event()
+    with qtbot.waitSignal(made.done):
+        made.ask(lambda: None)
+    made.ask(gate.wait)
+    thread = made._thread
+    shiboken6.delete(made)
+    gate.set()
+    thread.join(10.0)
+    assert not thread.is_alive()
 
 
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
