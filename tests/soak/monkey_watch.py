@@ -22,6 +22,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 _MEANT = ("This plugin does not support", "Mouse event at ")
 _TELLING = (QtMsgType.QtWarningMsg, QtMsgType.QtCriticalMsg, QtMsgType.QtFatalMsg)
 LONGEST = 1.0  # [s] of computing between two turns of the event loop
+WINDOW_BUILT = 2.0  # [s] of computing, where another language makes a whole window anew
 STUCK = 20.0  # [s] by the clock on the wall, however busy the machine is
 _AROUND = 14  # calls that are told of
 _SAMPLED = 0.5  # [s] after which it is looked up where the program is
@@ -103,7 +104,8 @@ class Watch:
 
     def _judge(self, turn: Turn, what: str) -> None:
         self.turns.append(turn)
-        if self._slowness and (turn.wall > STUCK or min(turn.wall, turn.thread) > LONGEST):
+        longest = WINDOW_BUILT if "action_language_" in what else LONGEST
+        if self._slowness and (turn.wall > STUCK or min(turn.wall, turn.thread) > longest):
             self.slow[what] += 1
             self.find(f"{turn} after {what}\n{self._where}")
 
