@@ -220,7 +220,9 @@ def _font(app: QApplication, presentation: bool) -> QFont:
         app.setProperty("natural_point_size", natural)
         app.setProperty("natural_family", app.font().family())
     font = number_font(app.font())
-    font.setFamilies([*_FAMILIES.get(language().code, ()), app.property("natural_family")])
+    own = _FAMILIES.get(language().code, ())
+    font.setFamilies([*own, app.property("natural_family")])
+    font.setKerning(not own)  # the Arabic font kerns letters within a word as far apart as words
     font.setPointSizeF(float(natural) * text_scale(presentation))
     return font
 

@@ -76,6 +76,7 @@ def font(face: Face, style: str = "", scale: float = FINE) -> QFont:
     size = face.size * (0.86 if style == "code" or (style == "bold" and not face.sans) else 1.0)
     made.setPixelSize(max(1, round(size * scale)))
     made.setHintingPreference(QFont.HintingPreference.PreferNoHinting)
+    made.setKerning(not from_right())  # the Arabic font kerns letters within a word as far apart as words
     if face.bold or style in ("bold", "bad"):
         made.setWeight(QFont.Weight.DemiBold if not face.bold else QFont.Weight.Bold)
     return made
@@ -103,7 +104,8 @@ class Text:
         text = "".join(run.text for run in pieces)
         self._layout = QTextLayout(text, font(face))
         side = Qt.AlignmentFlag.AlignRight if from_right() else Qt.AlignmentFlag.AlignLeft
-        option = QTextOption(Qt.AlignmentFlag.AlignJustify if justified else side)
+        # Qt widens lines at numbers and foreign words alone where they are written from right to left.
+        option = QTextOption(Qt.AlignmentFlag.AlignJustify if justified and not from_right() else side)
         option.setWrapMode(wrap_mode(text))
         if from_right():
             option.setTextDirection(_direction(text))
