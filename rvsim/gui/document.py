@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QUndoCommand
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from rvsim.errors import RvsimError, SessionFileError
@@ -28,20 +30,44 @@ _UNTITLED = tr_later("Untitled")
 Then = Callable[[], object]
 
 
+@dataclass
+class _File:
+    """The file of the session; windows in other languages, one after the other, share it."""
+
+    path: Path | None = None
+    read_only: bool = False
+
+
+class _SetAside(QUndoCommand):
+    """The session has no file any more; undone, it has the one that it had."""
+
+    def __init__(self, file: _File) -> None:
+        super().__init__()
+        self._file, self._other = file, _File()
+
+    def redo(self) -> None:
+        """Change the one for the other."""
+        now = replace(self._file)
+        self._file.path, self._file.read_only = self._other.path, self._other.read_only
+        self._other = now
+
+    def undo(self) -> None:
+        """Change them back."""
+        self.redo()
+
+
 class Document(QObject):
     """One to a window. It asks and makes safety copies only once `begin` was called: not in tests and pictures.
 
     Attributes:
-        path: of the session's file, None before it has one.
-        read_only: a newer rvsim wrote the file: it is saved elsewhere.
         asks: whether it asks before something is lost.
     """
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self._window, self._session = window, window.session
-        self.path: Path | None = None
-        self.read_only = self.asks = False
+        self._file = _File()
+        self.asks = False
         self._clean = True  # as the undo stack has it
         self._unsaved = False  # a recovered copy, which no file holds yet
         self._leaving = False
@@ -53,6 +79,7 @@ class Document(QObject):
         self.autosave.failed.connect(self._on_copy_failed)
         self._drop = FileDrop(window, {ENDING: self.ask_and_open, ".toml": window.commands.open_toml})
         self._session.undo_stack.cleanChanged.connect(self._on_clean)
+        self._session.undo_stack.indexChanged.connect(self._on_step)
         self._session.changed.connect(self._on_changed)
         self._port.edited.connect(self.show_title)
         self.show_title()
@@ -64,13 +91,33 @@ class Document(QObject):
 
     def take_over(self, other: Document) -> None:
         """Go on with the file of a window that this one takes the place of."""
-        self.path, self.read_only, self._unsaved = other.path, other.read_only, other._unsaved
+        self._file, self._unsaved = other._file, other._unsaved
         self._clean, self._saved_port = other._clean, other._saved_port
         if other.asks:
             self.begin()
             self.autosave.tick()  # before the other's copy goes
         other.asks = False
         self.show_title()
+
+    # --- its file ----------------------------------------------------------------------------------------------------
+
+    @property
+    def path(self) -> Path | None:
+        """Of the session's file, None before it has one."""
+        return self._file.path
+
+    @property
+    def read_only(self) -> bool:
+        """Whether a newer rvsim wrote the file: it is saved elsewhere."""
+        return self._file.read_only
+
+    def set_aside(self) -> None:
+        """Something else is shown from now on, in a session without a name: saved, it does not replace this file.
+
+        It belongs to the undo step that is being made, and is undone with it.
+        """
+        if self.path is not None:
+            self._session.undo_stack.push(_SetAside(self._file))
 
     # --- what is to be lost ------------------------------------------------------------------------------------------
 
@@ -92,6 +139,9 @@ class Document(QObject):
     def _on_clean(self, clean: bool) -> None:
         self._clean = clean
         self.show_title()
+
+    def _on_step(self, _index: int) -> None:
+        self.show_title()  # a step may have been that to an example, which has no file
 
     def _on_changed(self, before: Experiment, after: Experiment) -> None:
         if after.robot is not before.robot:
@@ -196,7 +246,7 @@ class Document(QObject):
 
     def _became(self, path: Path | None, *, read_only: bool = False, unsaved: bool = False) -> None:
         """The window shows another session."""
-        self.path, self.read_only, self._unsaved = path, read_only, unsaved
+        self._file.path, self._file.read_only, self._unsaved = path, read_only, unsaved
         self._saved_port = self._port.settings
         self._session.undo_stack.setClean()
         if not unsaved:

@@ -36,6 +36,7 @@ def show_experiment(window: MainWindow, experiment: SourceExperiment) -> None:
 def _set_up(window: MainWindow, experiment: SourceExperiment) -> None:
     session, stack = window.session, window.session.undo_stack
     stack.beginMacro(tr("Show source {source}, {item}", source=experiment.source, item=tr(experiment.item)))
+    window.document.set_aside()
     session.use_robot(_bare(window.library[experiment.robot]))
     session.edit(tr("Set up"), experiment.setup.applied(session.experiment))
     stack.endMacro()

@@ -27,6 +27,7 @@ from rvsim.files.session_file import load_session, session_bytes
 from rvsim.gui.app import build_window
 from rvsim.gui.autosave import autosave_seconds, leftovers
 from rvsim.gui.document_state import state_of
+from rvsim.gui.help.examples import follow
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.recovery_dialog import RecoveryDialog, offer_recovery
@@ -190,7 +191,7 @@ def test_before_work_is_lost_it_asks_and_does_as_it_is_told(own_window: MainWind
     window.document.new()
     question(window).button(Button.Cancel).click()
     assert window.session.q is q
-    window.document.path = tmp_path / "kept.rvsim"
+    window.document._file.path = tmp_path / "kept.rvsim"
     window.document.new()
     question(window).button(Button.Save).click()
     np.testing.assert_array_equal(load_session(tmp_path / "kept.rvsim").state.experiment.q, q)
@@ -257,6 +258,29 @@ def test_an_arm_that_bears_a_built_in_name_becomes_a_copy(window: MainWindow, tm
     assert window.session.robot.name == "my-rv-m1"
     assert window.session.robot.joints[1].a == pytest.approx(0.3, abs=1e-12)
     assert window.library["rv-m1"].joints[1].a == load_robot("rv-m1").joints[1].a
+
+
+@pytest.mark.parametrize("link", ["rvsim:show/singular?robot=ur5e", "rvsim:source/000-P7"])
+def test_an_example_is_a_session_without_a_name_that_undo_gives_the_name_back(
+    own_window: MainWindow, tmp_path: Path, link: str
+) -> None:
+    document, stack = own_window.document, own_window.session.undo_stack
+    assert document.save_to(tmp_path / "mine.rvsim")
+    before, index = (tmp_path / "mine.rvsim").read_bytes(), stack.index()
+    follow(own_window, link)
+    own_window.motion.pause()
+    assert (document.path, document.dirty) == (None, True)
+    assert own_window.windowTitle().startswith("Untitled*")
+    stack.setIndex(index)
+    assert (document.path, document.dirty) == (tmp_path / "mine.rvsim", False)
+    assert own_window.windowTitle().startswith("mine ")
+    stack.setIndex(stack.count())
+    assert document.save_to(tmp_path / "example.rvsim")
+    stack.setIndex(index)
+    assert (document.path, document.dirty) == (tmp_path / "mine.rvsim", True)
+    stack.setIndex(stack.count())
+    assert (document.path, document.dirty) == (tmp_path / "example.rvsim", False)
+    assert (tmp_path / "mine.rvsim").read_bytes() == before
 
 
 def test_recent_files_are_eight_and_those_that_are_gone_are_grey(window: MainWindow, tmp_path: Path) -> None:
@@ -364,7 +388,7 @@ CRASHING = """
 
     app = make_application(["rvsim"])
     window = build_window(Preferences())
-    window.document.path = __import__("pathlib").Path(sys.argv[1])
+    window.document._file.path = __import__("pathlib").Path(sys.argv[1])
     window.document.begin()
     window.session.edit("Work", window.session.experiment.with_pose("afternoon's work"))
     app.exec()

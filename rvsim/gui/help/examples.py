@@ -100,6 +100,7 @@ def _set_up(window: MainWindow, wishes: dict[str, str]) -> None:
     window.motion.pause()
     window.tracker.cancel()
     session.undo_stack.beginMacro(tr("Show an example of the help"))
+    window.document.set_aside()
     session.use_robot(robot)
     before = session.experiment
     program = wanted.program or before.program
