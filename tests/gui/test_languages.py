@@ -169,7 +169,7 @@ def unmarked(text: str) -> str:
     for sign in text:
         depth += (sign == MARK) - (sign == END)
         rest.append(sign if depth == 0 and sign != END else "")
-    return NAMES.sub("", "".join(rest))
+    return NAMES.sub(" ", "".join(rest))
 
 
 def shown_texts(window: QWidget) -> Iterator[tuple[str, str]]:
