@@ -48,7 +48,7 @@ class PlayerBar(QWidget):
         self.speed.setAccessibleName(tr("Speed"))
         self.speed.setToolTip(tr("Speed of the motion"))
         for speed in SETTINGS["speed"].choices:
-            self.speed.addItem(f"{speed:g}×", speed)
+            self.speed.addItem(left_to_right(f"{speed:g}×"), speed)
         self.speed.setCurrentIndex(self.speed.findData(preferences["speed"]))
         self.speed.currentIndexChanged.connect(self._on_speed)
         self.loop = QCheckBox(tr("Loop"))

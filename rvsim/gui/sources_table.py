@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, QSortFilterProxyModel, Qt
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QColor, QGuiApplication
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
 
-from rvsim.gui.panels.tables import LEFT, RIGHT, plain_table, text_metrics
+from rvsim.gui.panels.tables import RIGHT, plain_table, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.theme import THEMES
 from rvsim.lab.sources.experiments import SOURCE_TITLES, experiment_of
@@ -19,6 +19,7 @@ from rvsim.language import left_to_right, tr, tr_later, without_isolates
 
 Index = QModelIndex | QPersistentModelIndex
 _TOP = QModelIndex()
+_LEADING = Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignVCenter  # where reading begins
 _ITEM, _VERDICT = COLUMNS.index("Item"), COLUMNS.index("Verdict")
 _NUMBERS = range(_ITEM + 1, _VERDICT)
 # A sign and the theme's colour for each verdict.
@@ -67,7 +68,7 @@ class SourcesModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.DisplayRole:
             return _text(keyed, column)
         if role == Qt.ItemDataRole.TextAlignmentRole:
-            return RIGHT if column in _NUMBERS else LEFT
+            return RIGHT if column in _NUMBERS else _LEADING
         if role == Qt.ItemDataRole.ForegroundRole and column == _VERDICT:
             theme = THEMES[self._preferences["theme"]]
             return QColor(getattr(theme, SIGNS[keyed.row.verdict][1]))
@@ -92,7 +93,7 @@ class SourcesModel(QAbstractTableModel):
         if orientation != Qt.Orientation.Horizontal:
             return None
         if role == Qt.ItemDataRole.TextAlignmentRole:
-            return RIGHT if section in _NUMBERS else LEFT
+            return RIGHT if section in _NUMBERS else _LEADING
         return tr(COLUMNS[section]) if role == Qt.ItemDataRole.DisplayRole else None
 
 
@@ -146,6 +147,7 @@ class SourcesFilter(QSortFilterProxyModel):
 def sources_view(model: SourcesFilter) -> QTableView:
     """The table, sorted as the sources have it until a header is clicked."""
     table = plain_table("sources_table", tr("The numbers of the sources"), model)
+    table.setLayoutDirection(QGuiApplication.layoutDirection())  # most of it are words
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
     table.setWordWrap(False)

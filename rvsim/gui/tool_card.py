@@ -107,7 +107,9 @@ class ToolCard(QLabel):
         option = QStyleOption()
         option.initFrom(self)
         painter = QPainter(self)
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # it takes that of the application by itself
         self.style().drawPrimitive(QStyle.PrimitiveElement.PE_Widget, option, painter, self)
+        painter.setLayoutDirection(self.layoutDirection())  # a minus before its number
         painter.setPen(self.palette().windowText().color())
         upright, slanted = QFont(self.font()), QFont(self.font())
         slanted.setItalic(True)
