@@ -42,11 +42,11 @@ def did_you_mean(found: str, known: Sequence[str]) -> str:
 
 
 def _unreadable(path: object, where: str, found: str, expected: str, suggestion: str = "") -> str:
-    """What is wrong at a place of a file, and what would work."""
+    """What is wrong at a place of a file, and what would work; `found` alone where nothing is said to be expected."""
     message = tr(
         "{path}: {where}: found {found}, expected {expected}.", path=path, where=where, found=found, expected=expected
     )
-    return f"{message} {suggestion}".rstrip()
+    return f"{message if expected else found} {suggestion}".rstrip()
 
 
 class RvsimError(Exception):
@@ -85,8 +85,8 @@ class RobotFileError(RvsimError, ValueError):
     Args:
         path: the file.
         where: table and key, for instance "joint 3, key 'alpha'".
-        found: what stands there.
-        expected: what should stand there.
+        found: what stands there; or a sentence about the whole file.
+        expected: what should stand there; "" with a sentence.
         suggestion: what would work, a sentence (may be empty).
     """
 
@@ -162,7 +162,7 @@ class PathFileError(RvsimError, ValueError):
 
 
 class ProgramFileError(RvsimError, ValueError):
-    """A file of a program that cannot be read."""
+    """A file of a program that cannot be read; the arguments are those of `RobotFileError`."""
 
     def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
         self.path, self.where, self.found, self.expected = str(path), where, found, expected
@@ -170,7 +170,7 @@ class ProgramFileError(RvsimError, ValueError):
 
 
 class SessionFileError(RvsimError, ValueError):
-    """A session file that cannot be read, or a session that no file may hold; `where` is the place in the document."""
+    """A session file that cannot be read, or a session that no file may hold; arguments as of `RobotFileError`."""
 
     def __init__(self, path: object, where: str, found: str, expected: str, suggestion: str = "") -> None:
         self.path, self.where, self.suggestion = str(path), where, suggestion

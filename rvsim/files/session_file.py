@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 from rvsim.errors import FileWriteError, SessionFileError
 from rvsim.experiment import SessionState
 from rvsim.files.atomic import write_atomically
+from rvsim.files.file_words import unread
 from rvsim.files.place import shown
 from rvsim.files.session.json_text import LARGEST, json_text, json_value
 from rvsim.files.session.migrations import MIGRATIONS, VERSION, Migration, migrated, version_of
@@ -131,7 +132,7 @@ def _bytes_of(path: Path) -> bytes:
     except (OSError, ValueError) as problem:
         if isinstance(problem, SessionFileError):
             raise
-        raise SessionFileError(path, tr("the file"), _reason(problem), tr("a file that can be read")) from None
+        raise SessionFileError(path, tr("the file"), unread(path, problem), "") from None
 
 
 def _reason(problem: Exception) -> str:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from rvsim.errors import RobotFileError
+from rvsim.files.file_words import empty, too_large, unread
 from rvsim.language import tr, tr_later
 
 LARGEST = 256 * 1024  # [bytes]; the largest of our own has a twentieth of it
@@ -21,17 +22,19 @@ def read_bytes(path: Path, kind: str = tr_later("a robot file (.toml)")) -> byte
     """What is in a file, and never more than just too much of it; `kind` is for messages, what it should be.
 
     Raises:
-        RobotFileError: it cannot be opened or is no regular file.
+        RobotFileError: it cannot be opened, is no regular file, or is empty.
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):
             found = tr("a folder") if path.is_dir() else tr("something that is no file")
             raise RobotFileError(path, tr("the file"), found, tr(kind))
         with path.open("rb") as file:
-            return file.read(LARGEST + 1)
+            data = file.read(LARGEST + 1)
     except OSError as problem:
-        reason = (problem.strerror or str(problem)).lower()
-        raise RobotFileError(path, tr("the file"), reason, tr("a file that can be read")) from None
+        raise RobotFileError(path, tr("the file"), unread(path, problem), "") from None
+    if not data.strip():
+        raise RobotFileError(path, tr("the file"), empty(path), "")
+    return data
 
 
 def text_of(data: bytes, path: object) -> str:
@@ -41,9 +44,7 @@ def text_of(data: bytes, path: object) -> str:
         RobotFileError: they are too many or no UTF-8.
     """
     if len(data) > LARGEST:
-        raise RobotFileError(
-            path, tr("the file"), tr("a large file"), tr("at most {largest} kB of text", largest=LARGEST // 1024)
-        )
+        raise RobotFileError(path, tr("the file"), too_large(path, LARGEST), "")
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise RobotFileError(path, tr("the file"), tr("UTF-16 text"), tr("UTF-8 text"), tr(_AS_UTF8))
     try:

@@ -92,5 +92,5 @@ def test_a_spoilt_file_names_its_line_and_key(text: str, where: str, found: str)
 
 
 def test_a_file_that_is_not_there_says_so(tmp_path: Path) -> None:
-    with pytest.raises(ProgramFileError, match="no such file"):
+    with pytest.raises(ProgramFileError, match="There is no file"):
         load_program(tmp_path / "none.toml", ROBOTS["rv-m1"])

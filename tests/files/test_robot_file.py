@@ -275,7 +275,7 @@ def test_an_arm_has_no_more_than_32_joints() -> None:
         (RV_M1.encode("utf-16"), "UTF-16"),
         (RV_M1.replace("report", "répport").encode() + "# é".encode("latin-1"), "0xe9"),
         (b"#" * 300_000, "256 kB"),
-        (b"", "required"),
+        (b"", "is empty"),
         (b"\x89PNG\r\n\x1a\n", "UTF-8"),
         (b"{}", "TOML"),
     ],

@@ -224,7 +224,13 @@ def test_a_newer_file_opens_read_only_with_a_sentence_and_without_what_is_unknow
 # --- what is no session --------------------------------------------------------------------------------------------
 
 BROKEN = {
-    b"": "line 1",
+    b"": "is empty",
+    b" \n": "is empty",
+    b"{" + b" " * (16 * 1024 * 1024): "at most 16 MB are read",
+    b'{\n  "format": "rvsim session",\n': "ends in line 2 .* may be cut off",
+    b'{\n  "format": "rvsim ses': "ends in line 2 .* may be cut off",
+    b'{"format": 1} and more': "line 1, column 15.*Extra data",
+    b'{"format": 1, "version" 2}': "line 1, column 25.*Expecting ':'",
     b"\xff\xfe{": "byte 0xff",
     b"[" * 100_000: "nested too deeply",
     b"[" * 300_000: "hundreds of thousands",
@@ -240,7 +246,7 @@ BROKEN = {
 
 @pytest.mark.parametrize(("data", "said"), BROKEN.items(), ids=range(len(BROKEN)))
 def test_what_is_no_session_is_refused_with_the_place_and_what_was_found(data: bytes, said: str) -> None:
-    with pytest.raises(SessionFileError, match=r"broken\.rvsim: .*" + said):
+    with pytest.raises(SessionFileError, match=r"broken\.rvsim.*" + said):
         session_of(data, "broken.rvsim")
 
 
@@ -305,7 +311,7 @@ def test_a_full_disk_is_told_in_a_sentence_and_the_old_file_stays_whole(
 def test_a_folder_and_a_missing_file_are_told_in_a_sentence(tmp_path: Path) -> None:
     with pytest.raises(SessionFileError, match="found a folder"):
         load_session(tmp_path)
-    with pytest.raises(SessionFileError, match="no such file"):
+    with pytest.raises(SessionFileError, match=r"There is no file .*gone\.rvsim"):
         load_session(tmp_path / "gone.rvsim")
     with pytest.raises(FileWriteError, match="cannot be written"):
         save_session(_default(), tmp_path / "no" / "folder.rvsim")

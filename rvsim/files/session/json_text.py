@@ -8,11 +8,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from rvsim.errors import SessionFileError
+from rvsim.files.file_words import cut_off, empty, too_large
 from rvsim.language import tr, tr_later
 
 LARGEST = 16 * 1024 * 1024  # [bytes]
 _MOST_LISTS, _MOST_VALUES = 200_000, 2_000_000
 _LINE = 110
+_OLDER = tr_later("Look for another copy of it.")
 _SPEAKS = tr_later("A session file of rvsim is JSON text in UTF-8.")
 
 
@@ -75,6 +77,9 @@ def json_value(data: bytes, path: object) -> Any:
     except RecursionError:
         raise SessionFileError(path, tr("the file"), tr("lists nested too deeply"), tr("a session")) from None
     except json.JSONDecodeError as problem:
+        if _ends_too_early(text, problem):
+            line = text.rstrip().count("\n") + 1
+            raise SessionFileError(path, tr("the file"), cut_off(path, line), "", tr(_OLDER)) from None
         where = tr("line {line}, column {column}", line=problem.lineno, column=problem.colno)
         found = tr("a mistake ({mistake})", mistake=problem.msg)
         raise SessionFileError(path, where, found, "JSON", tr(_SPEAKS)) from None
@@ -85,14 +90,23 @@ def json_value(data: bytes, path: object) -> Any:
     return value
 
 
+def _ends_too_early(text: str, problem: json.JSONDecodeError) -> bool:
+    """Whether the document stops before its last bracket; one with something behind that bracket does not."""
+    whole = text.strip()
+    return whole.startswith("{") and problem.msg != "Extra data" and (
+        problem.pos >= len(text.rstrip()) or not whole.endswith("}")
+    )  # fmt: skip
+
+
 class _MistakeError(ValueError):
     """What JSON's own reader would let pass."""
 
 
 def _text(data: bytes, path: object) -> str:
     if len(data) > LARGEST:
-        found = tr("a large file")
-        raise SessionFileError(path, tr("the file"), found, tr("at most {largest} MB", largest=LARGEST // 1024 // 1024))
+        raise SessionFileError(path, tr("the file"), too_large(path, LARGEST), "")
+    if not data.strip():
+        raise SessionFileError(path, tr("the file"), empty(path), "", tr(_OLDER))
     if data.count(b"[") + data.count(b"{") > _MOST_LISTS or data.count(b",") > _MOST_VALUES:
         raise SessionFileError(path, tr("the file"), tr("hundreds of thousands of lists"), tr("a session"))
     try:
