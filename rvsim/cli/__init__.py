@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 
 from rvsim import __version__
 from rvsim.cli import arm, arms, paths, report, self_test
-from rvsim.cli.arguments import Parser, joined_values, named_session
+from rvsim.cli.arguments import Parser, joined_values, named_session, refuse_other_files
 from rvsim.cli.outcome import BAD_INPUT, DONE, FAILED, InputError
 from rvsim.cli.output import speak_any_encoding
 from rvsim.cli.window import add_window_options, open_window
@@ -29,7 +29,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     speak_any_encoding()
     try:
         given = sys.argv[1:] if arguments is None else arguments
-        options = _parser().parse_args(joined_values(named_session(given)))
+        named = named_session(given)
+        refuse_other_files(named, [command.name for command in _COMMANDS])
+        options = _parser().parse_args(joined_values(named))
         job: Callable[[argparse.Namespace], int] = options.job
         return job(options)
     except BrokenPipeError:  # the reader has seen enough, as in `rvsim robots | head -1`

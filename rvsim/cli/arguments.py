@@ -67,14 +67,35 @@ def joined_values(arguments: Sequence[str]) -> list[str]:
 def named_session(arguments: Sequence[str]) -> list[str]:
     """`rvsim FILE.rvsim`, as a double click has it, as `rvsim --open=FILE.rvsim`."""
     named = list(arguments)
-    for index, argument in enumerate(named):
-        before = named[index - 1] if index else ""
+    index = _first_word(named)
+    if index is not None and named[index].lower().endswith(ENDING):
+        named[index] = f"--open={named[index]}"
+    return named
+
+
+def _first_word(arguments: Sequence[str]) -> int | None:
+    """Where a file is named, or a command, whose arguments are its own; None where there is nothing but options."""
+    for index, argument in enumerate(arguments):
+        before = arguments[index - 1] if index else ""
         belongs_to_option = before.startswith("-") and "=" not in before
         if not argument.startswith("-") and not belongs_to_option:
-            if argument.lower().endswith(ENDING):
-                named[index] = f"--open={argument}"
-            break  # a file, or a command, whose arguments are its own
-    return named
+            return index
+    return None
+
+
+def refuse_other_files(arguments: Sequence[str], commands: Sequence[str]) -> None:
+    """Say of a file that is no session what can be done with it: the parser would take it for a command.
+
+    Raises:
+        InputError: the first word is a file, and not one that is opened without a word.
+    """
+    index = _first_word(arguments)
+    word = arguments[index] if index is not None else ""
+    if not word or word in commands or not (Path(word).suffix or Path(word).exists()):
+        return
+    if word.lower().endswith(".toml"):
+        raise InputError(f"{word} is not a session file (*{ENDING}). To open a robot file: rvsim --robot {word}.")
+    raise InputError(f"{word} is not a session file (*{ENDING}). Type rvsim --help.")
 
 
 def output_file(text: str) -> str:
