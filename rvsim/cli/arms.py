@@ -12,7 +12,7 @@ from rvsim.cli.arguments import MM_NOTE, Command, add_arm, add_arm_and_joints, a
 from rvsim.cli.outcome import DONE, FAILED, InputError
 from rvsim.cli.output import number_row, print_result
 from rvsim.cli.values import near_joints, typed_joints, typed_lengths, typed_numbers
-from rvsim.files import load_robot, robot_names, user_robots
+from rvsim.files import example_names, load_robot, robot_names, user_robots
 from rvsim.kinematics import forward_kinematics, jacobian
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -35,17 +35,13 @@ def _add_pose_options(parser: argparse.ArgumentParser) -> None:
 
 def _robots(options: argparse.Namespace) -> int:
     own = user_robots()
-    robots = [*(load_robot(name) for name in robot_names()), *own.by_file.values()]
-    width = max(12, *(len(robot.name) for robot in robots))
-    lines = [f"{robot.name:{width}} {robot.dof} joints  {robot.title}{_in_brackets(robot.family)}" for robot in robots]
+    robots = [*(load_robot(name) for name in (*robot_names(), *example_names())), *own.by_file.values()]
+    name, title = (max(12, *map(len, words)) for words in zip(*((one.name, one.title) for one in robots), strict=True))
+    lines = [f"{one.name:{name}} {one.dof} joints  {one.title:{title}}  {one.family}".rstrip() for one in robots]
     for problem in own.problems:
         print(f"rvsim: left out: {problem}", file=sys.stderr)
     print_result(options, [_robot_record(robot) for robot in robots], "\n".join(lines))
     return DONE
-
-
-def _in_brackets(text: str) -> str:
-    return f" ({text})" if text else ""
 
 
 def _robot_record(robot: Robot) -> dict[str, Any]:

@@ -16,7 +16,7 @@ import pytest
 
 from rvsim import __version__, forward_kinematics, jacobian, load_robot, robot_names
 from rvsim.cli import BAD_INPUT, DONE, FAILED, main
-from rvsim.files import save_robot, user_robot_path
+from rvsim.files import example_names, save_robot, user_robot_path
 
 Capture = pytest.CaptureFixture[str]
 LINE_000 = ["--from-mm", "110,0,130", "--to-mm", "230,0,333", "--samples", "11"]
@@ -81,7 +81,7 @@ def test_a_pose_outside_the_limits_is_computed_and_told(capsys: Capture) -> None
 
 def test_all_arms_are_listed_and_a_missing_limit_is_null(capsys: Capture) -> None:
     records = run_json(capsys, "robots")
-    assert tuple(record["name"] for record in records) == robot_names()
+    assert tuple(record["name"] for record in records) == (*robot_names(), *example_names())
     rrrp = next(record for record in records if record["name"] == "rrrp")
     assert rrrp["limits"][0] == [None, None]
     assert len(run(capsys, "robots").splitlines()) == len(records)
@@ -194,6 +194,9 @@ def test_tracking_draws_a_picture(capsys: Capture, tmp_path: Path, qapp: object)
     ("arguments", "sentence"),
     [
         (["fk", "rvm1", "--deg", "0"], "No robot 'rvm1', and no such file. Did you mean 'rv-m1'?"),
+        (["--theme", "dark", "readme.md"], "readme.md is not a session file (*.rvsim). Type rvsim --help."),
+        (["mine.toml"], "mine.toml is not a session file (*.rvsim). To open a robot file: rvsim --robot mine.toml."),
+        (["fkk"], "invalid choice: 'fkk'"),
         (["fk", "rv-m1", "--deg", "1,2"], "--deg needs 5 values (waist, shoulder, elbow, wrist pitch, wrist roll)"),
         (["fk", "rv-m1", "--deg", "1,2,3,4,five"], "“five” is no number"),
         (["fk", "rv-m1"], "The following arguments are required: --deg."),
