@@ -63,7 +63,7 @@ class SourcesDialog(QDialog):
         self.words.textChanged.connect(lambda _: self._narrow())
         formats = {tr_later("text"): reproduction_text, "CSV": reproduction_csv, "LaTeX": reproduction_latex}
         makers = {name: (lambda make=make: make(self._plain_rows())) for name, make in formats.items()}
-        self.copy = CopyButton("sources_copy", tr("the table"), makers, self._window.session)
+        self.copy = CopyButton("sources_copy", tr("the whole table"), makers, self._window.session)
 
     def _make_foot(self) -> None:
         self.sentence = wrapped_label()

@@ -145,6 +145,7 @@ class _CellDelegate(QStyledItemDelegate):
         font.setPointSizeF(self.shrunk * font.pointSizeF())
         painter.setFont(font)
         painter.setPen(view.palette.color(QPalette.ColorRole.Text))
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # it takes that of the application by itself
         painter.drawText(view.rect.adjusted(2, 0, -5, 0), RIGHT, model.text(index.row(), index.column()))
         if index.column() == model.lit:
             painter.setPen(QPen(view.palette.color(QPalette.ColorRole.Highlight), 2))

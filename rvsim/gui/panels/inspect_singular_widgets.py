@@ -81,6 +81,7 @@ class SigmaBars(PaintedLines):
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Names, bars, numbers, and the threshold."""
         painter = QPainter(self)
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         painter.setFont(number_font(self.font()))
         metrics, line = QFontMetricsF(painter.font()), self._line()
         left = metrics.horizontalAdvance("σ₆") + 8.0
@@ -152,6 +153,7 @@ class NumberGrid(PaintedLines):
         if not self._rows:
             return
         painter, line, columns = QPainter(self), self._line(), len(self._rows[0])
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         painter.setFont(number_font(self.font()))
         width = min((self.width() - 20.0) / columns, 5.5 * QFontMetricsF(painter.font()).averageCharWidth() + 26.0)
         right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter

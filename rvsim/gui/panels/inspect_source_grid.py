@@ -152,4 +152,5 @@ class Grid(QWidget):
         painter.setFont(font)
         painter.setPen(self.palette().color(role))
         side = Qt.AlignmentFlag.AlignLeft if left else Qt.AlignmentFlag.AlignRight
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         painter.drawText(box, side | Qt.AlignmentFlag.AlignVCenter, text)
