@@ -27,6 +27,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.language import language
 
 REMEMBERED = 30
+_AWAY = 0.95  # the answer that sends away whatever is in front
 _PATIENCE = 60  # deeds, after which what stays in front is sent away
 _ENDING = 5.0  # [s] within which all threads have ended after a window was closed
 
@@ -174,7 +175,7 @@ class Life:
         self._ahead_for = self._ahead_for + 1 if ahead is not None and ahead is self._ahead else 0
         self._ahead = ahead
         if self._ahead_for > _PATIENCE and file_dialog() is None:
-            return Deed("answer", (0.7,), "at last")
+            return Deed("answer", (_AWAY,), "at last")
         return self.choices.choose()
 
     def _leave(self) -> None:
@@ -186,7 +187,7 @@ class Life:
             return
         if ahead is not None:
             self._next(0.01)
-            self.do(Deed("file_dialog" if file_dialog() is not None else "answer", () if file_dialog() else (0.7,)))
+            self.do(Deed("file_dialog" if file_dialog() is not None else "answer", () if file_dialog() else (_AWAY,)))
             return
         self._loop.quit()
 
@@ -242,7 +243,7 @@ class Life:
 
     def _send_away(self) -> None:
         while front() is not None:
-            self.do(Deed("answer", (0.7,)))
+            self.do(Deed("answer", (_AWAY,)))
 
     def _await_threads(self, began: float) -> None:
         while threads := set(threading.enumerate()) - self._threads:
