@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -266,10 +267,17 @@ class Document(QObject):
         dialog = QFileDialog(self._window, tr("Save session as"), str(self._folder()), _filter())
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix(ENDING.removeprefix("."))
-        dialog.selectFile(f"{self.path.stem if self.path else self._session.robot.name}{ENDING}")
+        dialog.selectFile(self._name_to_save())
         if not dialog.exec():
             return False
         return self.save_to(Path(dialog.selectedFiles()[0]))
+
+    def _name_to_save(self) -> str:
+        """The name that a file dialog begins with; beside a file that must not be replaced, a new one."""
+        if self.path is None or not self.read_only:
+            return f"{self.path.stem if self.path else self._session.robot.name}{ENDING}"
+        names = (f"{self.path.stem} {number}{ENDING}" for number in count(2))
+        return next(name for name in names if not self.path.with_name(name).exists())
 
     def save_to(self, file: Path) -> bool:
         """Save there, or say why not; whether it is saved. What is open stays as it is either way."""

@@ -236,9 +236,13 @@ def test_a_file_of_a_newer_rvsim_is_not_replaced(
     before = file.read_bytes()
     assert window.document.open(file)
     assert "newer rvsim" in window.message.text()
+    (tmp_path / "new 2.rvsim").touch()
+    proposed: list[str] = []
+    monkeypatch.setattr(QFileDialog, "selectFile", lambda _, name: proposed.append(name))
     monkeypatch.setattr(QFileDialog, "exec", lambda _: True)
     monkeypatch.setattr(QFileDialog, "selectedFiles", lambda _: [str(file)])
     assert not window.document.save()
+    assert proposed == ["new 3.rvsim"]
     assert file.read_bytes() == before
 
 
