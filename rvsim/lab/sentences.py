@@ -184,9 +184,7 @@ def _cause(point: Unreached) -> tuple[str, str | None, float | None]:
 def _which(group: list[Unreached]) -> str:
     first, last = group[0].index + 1, group[-1].index + 1
     return (
-        tr("point {number}", number=first)
-        if first == last
-        else tr("points {first}\u2013{last}", first=first, last=last)
+        tr("point {number}", number=first) if first == last else tr("points {begin}\u2013{end}", begin=first, end=last)
     )
 
 

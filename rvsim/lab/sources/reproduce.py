@@ -164,7 +164,12 @@ def _picked(entry: Erratum, comparison: Comparison) -> tuple[str, str, FloatArra
         name, unit, of = _PICKS[entry.key]
         return tr(name), unit, np.asarray(of(comparison.printed)), np.asarray(of(comparison.right))
     unit, factor = unit_of(load_robot(entry.robot), str(comparison.kinds.flat[0]))
-    return _names(entry.rows) or tr(entry.title), unit, comparison.printed * factor, comparison.right * factor
+    return (
+        _names(entry.rows) if entry.rows else tr(entry.title),
+        unit,
+        comparison.printed * factor,
+        comparison.right * factor,
+    )
 
 
 def _names(rows: tuple[str, ...]) -> str:
