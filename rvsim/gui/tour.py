@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPainterPath, QPaintEvent, QPen
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from rvsim.gui.theme import set_role
 from rvsim.gui.tour_steps import STEPS
@@ -27,6 +27,7 @@ _LATER_MS = 400  # after the window is there
 _KEYS = {
     Qt.Key.Key_Right: 1, Qt.Key.Key_PageDown: 1, Qt.Key.Key_Left: -1, Qt.Key.Key_PageUp: -1,
 }  # fmt: skip
+_ENTER = Qt.Key.Key_Return, Qt.Key.Key_Enter
 
 
 class Tour(QObject):
@@ -198,9 +199,15 @@ class TourCard(QWidget):
         width = max(round(_WIDTH * self.fontMetrics().height() / 16.0), self.minimumSizeHint().width())
         return QSize(width, max(self._column.totalHeightForWidth(width), self.minimumSizeHint().height()))
 
-    def eventFilter(self, _watched: QObject, event: QEvent) -> bool:
-        """Arrows go through the steps, Esc ends."""
-        return event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and self._took(event)
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Arrows go through the steps, Esc ends, Enter is Next unless another button has the focus."""
+        if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
+            return False
+        pressed = watched if watched in (self.skip_button, self.back_button) else self.next_button
+        if event.key() in _ENTER and isinstance(pressed, QPushButton):
+            pressed.click()
+            return True
+        return self._took(event)
 
     def _took(self, event: QKeyEvent) -> bool:
         key = Qt.Key(event.key())

@@ -70,6 +70,11 @@ def test_the_keyboard_leads_through_and_the_window_stays_usable(qtbot: QtBot) ->
     qtbot.keyClick(tour.card.next_button, Qt.Key.Key_Right)
     qtbot.keyClick(tour.card.next_button, Qt.Key.Key_Left)
     assert tour.step == 1
+    qtbot.keyClick(tour.card.next_button, Qt.Key.Key_Return)
+    qtbot.keyClick(tour.card.never, Qt.Key.Key_Enter)
+    assert tour.step == 3
+    qtbot.keyClick(tour.card.back_button, Qt.Key.Key_Return)
+    assert tour.step == 2
     assert tour.shade.testAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
     assert begin_tour(window) is tour
     assert tour.step == 0
