@@ -8,9 +8,11 @@ English: machines and forums read them.
 from __future__ import annotations
 
 import gettext
+import re
 import string
 import unicodedata
 from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -32,7 +34,12 @@ LANGUAGES = {
 
 # Unicode's isolates (UAX #9): what stands between them is laid out by itself, so a minus stays before its number.
 _ISOLATE, _ISOLATE_LEFT_TO_RIGHT, _ISOLATE_RIGHT_TO_LEFT, _END = "\u2068", "\u2066", "\u2067", "\u2069"
-_STRIPPED = str.maketrans("", "", _ISOLATE + _ISOLATE_LEFT_TO_RIGHT + _ISOLATE_RIGHT_TO_LEFT + _END)
+# What a text begins with to be laid out from right to left, though its first letter is a Latin one or a value's.
+_RIGHT_TO_LEFT_MARK = "\u200f"
+_FIELD = re.compile(r"\{[^{}]*\}")
+_STRIPPED = str.maketrans(
+    "", "", _ISOLATE + _ISOLATE_LEFT_TO_RIGHT + _ISOLATE_RIGHT_TO_LEFT + _END + _RIGHT_TO_LEFT_MARK
+)
 
 
 class Text(str):
@@ -99,8 +106,11 @@ def read_catalogue(file: Path) -> Catalogue:
 def tr(text: str, /, **values: object) -> str:
     """A text in the language that is spoken; `{name}` in it is replaced by the value of that name, if there are any.
 
-    A text that is not written here, but comes from a table, is marked there by `tr_later`.
+    A text that is not written here, but comes from a table, is marked there by `tr_later`. One that has been said
+    already stays as it is: in another language it may be spelt like another English text.
     """
+    if isinstance(text, Text) and not values:
+        return text
     return _said(text, "", 1, values)
 
 
@@ -140,9 +150,24 @@ def _said(text: str, many: str, number: int, values: Mapping[str, object]) -> Te
         template = found[min(kind_of_number(number), len(found) - 1)]
     else:
         template = text if number == 1 else many
+    if spoken.right_to_left:
+        template = _from_the_right(template, bool(found))
     said = Text(template if not values else _fill(template, values, spoken.right_to_left))
     said.template, said.many, said.number, said.values = text, many, number, values
     return said
+
+
+@lru_cache(maxsize=4096)
+def _from_the_right(template: str, translated: bool) -> str:
+    """A template of a language that is written from right to left: widgets lay a text out as its first letter is.
+
+    English that nobody has translated stays as it is, and so do names alone.
+    """
+    words = _FIELD.sub("", template)
+    first = next((kind for kind in map(unicodedata.bidirectional, words) if kind in ("L", "R", "AL")), "")
+    if first in ("R", "AL") or (first and not translated):
+        return template
+    return _RIGHT_TO_LEFT_MARK + template if words != template or has_right_to_left(words) else template
 
 
 def _fill(template: str, values: Mapping[str, object], right_to_left: bool) -> str:

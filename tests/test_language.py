@@ -10,13 +10,16 @@ from pathlib import Path
 import polib
 import pytest
 
+from rvsim import language as language_module
 from rvsim.language import (
     LANGUAGES,
+    Catalogue,
     again,
     catalogue_file,
     left_to_right,
     listed,
     read_catalogue,
+    sentences,
     speak,
     tr,
     trn,
@@ -24,7 +27,7 @@ from rvsim.language import (
 )
 
 TRANSLATED = [code for code in LANGUAGES if code != "en"]
-LTR, FIRST, END = "\u2066", "\u2068", "\u2069"
+LTR, FIRST, END, RTL_MARK = "\u2066", "\u2068", "\u2069", "\u200f"
 
 
 @pytest.fixture(scope="module")
@@ -90,12 +93,32 @@ def test_what_was_said_is_said_again_with_the_texts_in_it() -> None:
     assert again(outer) == "Undo and J1"
 
 
+def test_what_was_said_is_no_text_to_be_said() -> None:
+    speak("de")
+    said = tr("Run")  # German may spell it like another English text
+    assert tr(said) is said
+
+
 def test_numbers_keep_their_order_among_words_from_right_to_left() -> None:
     assert left_to_right("\u221230.0 mm") == "\u221230.0 mm"
     speak("ar")
     assert left_to_right("\u221230.0 mm") == f"{LTR}\u221230.0 mm{END}"
     assert f"{FIRST}\u22123{END}" in tr("{others} and {last}", others="\u22123", last="x")
     assert without_isolates(left_to_right("1, 2")) == "1, 2"
+
+
+def test_a_text_is_laid_out_from_the_right_whatever_it_begins_with(monkeypatch: pytest.MonkeyPatch) -> None:
+    forms = {
+        "J of {arm}": ("J \u0644\u0640 {arm}",),
+        "{a}: {b}": ("{a}: {b}",),
+        "Newton": ("Newton",),
+        "base": ("\u0642",),
+    }
+    monkeypatch.setattr(language_module, "_spoken", (LANGUAGES["ar"], Catalogue(forms, lambda _: 0)))
+    assert [tr("J of {arm}", arm="x")[0], tr("{a}: {b}", a="x", b="y")[0]] == [RTL_MARK] * 2
+    assert sentences("x", "y")[0] == RTL_MARK
+    assert [tr("Newton"), tr("base"), tr("{n} of nobody", n=1)[1:2]] == ["Newton", "\u0642", "1"]
+    assert without_isolates(tr("{a}: {b}", a="x", b="y")) == "x: y"
 
 
 def test_an_unknown_language_is_refused() -> None:
