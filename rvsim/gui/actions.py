@@ -41,7 +41,7 @@ def _action(window: QMainWindow, spec: ActionSpec) -> QAction:
     action.setCheckable(spec.checkable)
     action.setStatusTip(tr(spec.tip))
     action.setShortcut(QKeySequence(spec.shortcut))
-    if spec.name == "help":  # in dialogs too
+    if spec.name in ("help", "about"):  # in dialogs and the help window too
         action.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)
     keys = action.shortcut().toString(_NATIVE)
     action.setToolTip(f"{tr(spec.tip)} ({left_to_right(keys)})" if keys else tr(spec.tip))

@@ -271,6 +271,16 @@ def test_formulas_are_pictures_and_nothing_else_is_loaded(qtbot: QtBot) -> None:
     assert blocks[0].blockFormat().headingLevel() == 1
 
 
+def test_about_comes_while_the_help_is_in_front(qtbot: QtBot, window: MainWindow) -> None:
+    shown = show_help(window, INDEX)
+    with qtbot.waitActive(shown):
+        shown.activateWindow()
+    qtbot.keyClick(shown.browser, Qt.Key.Key_F1, Qt.KeyboardModifier.ControlModifier)
+    (dialog,) = window.findChildren(AboutDialog)
+    assert dialog.isVisible()
+    dialog.close()
+
+
 def test_about_tells_the_versions_and_copies_them(window: MainWindow) -> None:
     from PySide6.QtGui import QGuiApplication
 
