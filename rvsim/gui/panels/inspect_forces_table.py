@@ -215,6 +215,7 @@ class BarDelegate(QStyledItemDelegate):
         """Frame, bar, number."""
         row: TorqueRow = index.data(Qt.ItemDataRole.UserRole)
         painter.save()
+        painter.setLayoutDirection(option.direction)
         cell, palette = QRectF(option.rect), option.palette
         if index.row() % 2:
             painter.fillRect(cell, palette.alternateBase())

@@ -141,6 +141,7 @@ class _CellDelegate(QStyledItemDelegate):
         tint = QColor(_TINTS[share > 0.0])
         tint.setAlphaF(_STRONGEST * abs(share))
         painter.fillRect(view.rect.adjusted(1, 1, 0, 0), tint)
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # else it has that of the program
         font = QFont(view.font)
         font.setPointSizeF(self.shrunk * font.pointSizeF())
         painter.setFont(font)

@@ -153,6 +153,7 @@ class NumberGrid(PaintedLines):
         if not self._rows:
             return
         painter, line, columns = QPainter(self), self._line(), len(self._rows[0])
+        painter.setLayoutDirection(self.layoutDirection())
         painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         painter.setFont(number_font(self.font()))
         width = min((self.width() - 20.0) / columns, 5.5 * QFontMetricsF(painter.font()).averageCharWidth() + 26.0)

@@ -114,6 +114,7 @@ class Grid(QWidget):
         if sheet is None:
             return
         painter = QPainter(self)
+        painter.setLayoutDirection(self.layoutDirection())  # else it has that of the program
         painter.setFont(number_font(self.font()))
         lefts, width = self._columns(sheet)
         line, top = self._line(), 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QGuiApplication, QLinearGradient, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
+from PySide6.QtGui import QColor, QLinearGradient, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rvsim.gui.panels.inspect_workspace_words import Values
@@ -192,9 +192,8 @@ class ScaleBar(QWidget):
         with QPainter(self) as painter:
             painter.setPen(QColor(theme.muted))
             title = self.fontMetrics().elidedText(values.title, Qt.TextElideMode.ElideRight, self.width())
-            painter.setLayoutDirection(QGuiApplication.layoutDirection())  # of the words, but not of the numbers
             painter.drawText(QRectF(0, 0, self.width(), line), Qt.AlignmentFlag.AlignLeft, title)
-            painter.setLayoutDirection(self.layoutDirection())
+            painter.setLayoutDirection(self.layoutDirection())  # of numbers; the words before have the program's
             (self._paint_boxes if values.whole else self._paint_band)(painter, band, values, theme.dark)
 
     def _paint_band(self, painter: QPainter, band: QRectF, values: Values, dark: bool) -> None:
