@@ -4,16 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from rvsim.language import tr, tr_later
+from rvsim.language import tr
 from rvsim.robot import Robot
 
 ISOLATES = "\u2066\u2067\u2068"  # in front of a value in a text that is written from right to left
-# What the joints of robot files are called as a rule; other names are shown as they are.
-USUAL_NAMES = (
-    tr_later("base"), tr_later("waist"), tr_later("shoulder"), tr_later("elbow"), tr_later("wrist"),
-    tr_later("wrist pitch"), tr_later("wrist roll"), tr_later("wrist rotate"), tr_later("wrist twist"),
-    tr_later("gripper"),
-)  # fmt: skip
 
 
 def axis_name(robot: Robot, axis: int) -> str:

@@ -103,7 +103,7 @@ QTabBar::tab:selected {{ color: {text}; border-bottom-color: {accent}; }}
 QTabBar::tab:hover {{ color: {text}; }}
 QTabWidget::pane {{ border: none; border-top: 1px solid {border}; }}
 QGroupBox {{ border: none; margin-top: 16px; font-weight: 600; }}
-QGroupBox::title {{ subcontrol-origin: margin; left: 0; padding: 0; }}
+QGroupBox::title {{ subcontrol-origin: margin; left: 0; padding: 0 8px 0 0; }} /* bold needs more than Qt reckons */
 QAbstractSpinBox, QLineEdit, QComboBox {{
     background: {base}; border: 1px solid {border}; border-radius: 5px; padding: 3px 6px; min-height: 20px;
     selection-background-color: {accent}; selection-color: {on_accent};

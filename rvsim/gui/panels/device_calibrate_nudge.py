@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from rvsim.gui.calm_boxes import CountBox
 from rvsim.gui.quantities import format_number
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot.servo import LONGEST_US, SHORTEST_US
 
 _STEPS = (-10, -1, 1, 10)
@@ -55,7 +55,7 @@ class NudgeRow(QWidget):
             row.addWidget(self._button(step), 1)
 
     def _button(self, step: int) -> QPushButton:
-        made = _StepButton(format_number(step, 0) if step < 0 else f"+{step}")
+        made = _StepButton(left_to_right(format_number(step, 0) if step < 0 else f"+{step}"))
         made.setObjectName(f"calibrate_{'minus' if step < 0 else 'plus'}_{abs(step)}")
         name, tip = _LONGER if step > 0 else _SHORTER
         made.setAccessibleName(tr(name, step=abs(step)))

@@ -87,4 +87,5 @@ def _rows(title: str, result: Result, muted: str) -> str:
 
 def _cells(row: Sequence[str]) -> str:
     span = len(_HEADS) // len(row)
-    return "".join(f"<td align='right' colspan='{span}'>{escape(cell)}</td>" for cell in row)
+    cells = (escape(cell).replace(" ", "&nbsp;") for cell in row)
+    return "".join(f"<td align='right' colspan='{span}'>{cell}</td>" for cell in cells)

@@ -45,7 +45,7 @@ from rvsim.gui.panels.tables import (
 )
 from rvsim.gui.session import Session
 from rvsim.gui.widgets import button
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.robot import GripperServo, Robot, Servo
 
 _TOP = QModelIndex()
@@ -181,7 +181,7 @@ class ServosModel(QAbstractTableModel):
             return tr("What hangs on the servo") if section == 0 else tr(self._columns[section - 1].tip)
         if role != _Role.DisplayRole:
             return None
-        return "" if section == 0 else tr(self._columns[section - 1].head)
+        return "" if section == 0 else left_to_right(tr(self._columns[section - 1].head))
 
 
 class ServoTables(QWidget):
@@ -279,7 +279,6 @@ def _table(name: str, title: str, model: ServosModel) -> QTableView:
     for column in narrow:
         table.horizontalHeader().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
     make_editable(table, f"{name}_editor")
-    table.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers, in any language
     table.horizontalHeader().sectionResized.connect(lambda column, _, width: model.give_room(column, width))
     return table
 

@@ -56,7 +56,6 @@ class DrivePage(InspectPage):
         self.readings = ReadingsModel(preferences)
         self.table = plain_table("device_table", tr("Shown, sent and measured joints"), self.readings)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
-        self.table.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers, in any language
         self.measured = wrapped_label("muted")
         self.measured.setObjectName("device_measured_words")
         self._make_buttons()

@@ -102,13 +102,13 @@ class MeasuredPage(InspectPage):
         self.legend = QLabel()
         self.legend.setObjectName("measured_legend")
         self.legend.setTextFormat(Qt.TextFormat.RichText)
+        self.legend.setWordWrap(True)
         self.summary = QLabel()
         self.summary.setObjectName("measured_summary")
         self.summary.setWordWrap(True)
         self.model = ErrorsModel(preferences)
         self.table = plain_table("measured_table", tr("Deviations of joints and tool"), self.model)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
-        self.table.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers, in any language
         self.save = button(
             "measured_save",
             tr("Save as CSV…"),

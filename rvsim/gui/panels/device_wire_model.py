@@ -15,7 +15,7 @@ from rvsim.gui.panels.device_wire_lines import Line, shown_bytes
 from rvsim.gui.panels.device_wire_words import Words
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index
 from rvsim.gui.theme import THEMES, Theme
-from rvsim.language import left_to_right, tr, tr_later
+from rvsim.language import language, tr, tr_later
 
 TIME, WAY, BYTES, WORDS = range(4)
 _TOP = QModelIndex()
@@ -26,6 +26,7 @@ _TIPS = (
     tr_later("What went over the wire; bytes that are no letters as \\r or \\x1b"),
     tr_later("What it means"),
 )
+_RIGHT_TO_LEFT, _END = "\u2067", "\u2069"  # Unicode's isolates (UAX #9)
 _TINT = 60  # of 255, behind what was searched for
 _Role = Qt.ItemDataRole
 
@@ -176,7 +177,7 @@ class WireModel(QAbstractTableModel):
             return f"{line.entry.time:.3f}"
         if column == WAY:
             return line.entry.direction
-        return left_to_right(self.text(line)) if column == BYTES else self.words.of(line)
+        return self.text(line) if column == BYTES else _in_its_direction(self.words.of(line))
 
     def _ink(self, line: Line, column: int) -> QColor | None:
         """Stops stand out; what comes from the arm has another colour beside its other arrow."""
@@ -185,6 +186,11 @@ class WireModel(QAbstractTableModel):
                 return QColor(self._theme.error)
             return None if line.sent else QColor(self._theme.accent)
         return QColor(self._theme.muted) if column == TIME else None
+
+
+def _in_its_direction(words: str) -> str:
+    """The table's bytes stand from left to right, and words may not."""
+    return f"{_RIGHT_TO_LEFT}{words}{_END}" if language().right_to_left else words
 
 
 def _number(line: Line) -> int:

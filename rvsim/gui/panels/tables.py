@@ -10,8 +10,9 @@ from PySide6.QtGui import QColor, QFontMetrics, QGuiApplication, QIcon, QPainter
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
 
 Index = QModelIndex | QPersistentModelIndex
-RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+_AS_SAID = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignAbsolute  # heads too, where one reads from the right
+RIGHT = Qt.AlignmentFlag.AlignRight | _AS_SAID
+LEFT = Qt.AlignmentFlag.AlignLeft | _AS_SAID
 _DOT = 10
 CELL_MARGIN = 9  # [pixels] that a cell keeps left and right of its text, together
 
