@@ -15,7 +15,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from PySide6.QtCore import QRectF
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import (
     QBrush,
     QColor,
@@ -39,11 +39,15 @@ from PySide6.QtGui import (
 
 from rvsim.gui.formula import SIZE, plain_text, typeset
 from rvsim.gui.help.library import slug_of
+from rvsim.language import has_right_to_left
 
 SCHEME = "math:"
 _FENCE = re.compile(r"^```math\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _CODE = re.compile(r"(^```.*?^```$|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
 _INLINE = re.compile(r"\$([^$\n]+)\$")
+_BLOCK = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
+_ROW = re.compile(r"^\|(.*)\|[ \t]*$", re.MULTILINE)  # of a table
+_BAR = re.compile(r"(?<!\\)\|")
 _MARKS = re.compile(r"[^\w\s=+()/.,°·√×−]")  # others would be marks of Markdown, and break the words into pieces
 _RELATIVE_SIZE = 1.16  # the letters of formulas are small for their size
 _LARGER = {1: 2, 2: 1}  # headings, in steps of a fifth or so
@@ -83,7 +87,17 @@ def prepared(source: str) -> Prepared:
 
     parts = _CODE.split(_FENCE.sub(block, source))
     parts[::2] = [_INLINE.sub(lambda found: picture(found[1]), part) for part in parts[::2]]
-    return Prepared("".join(parts), tuple(formulas))
+    page = "".join(parts)
+    if has_right_to_left(page.partition("\n")[0]):
+        parts = _BLOCK.split(page)
+        parts[::2] = [_ROW.sub(_turned, part) for part in parts[::2]]
+        page = "".join(parts)
+    return Prepared(page, tuple(formulas))
+
+
+def _turned(row: re.Match[str]) -> str:
+    """A row of a table with its last cell first: Qt lays tables out from left to right alone."""
+    return "|".join(["", *reversed(_BAR.split(row[1])), ""])
 
 
 # --- formulas ------------------------------------------------------------------------------------------------------
@@ -148,8 +162,28 @@ def dress(document: QTextDocument, look: Look, slugs: Sequence[str] = ()) -> Non
         _dress_block(block, look, anchors)
     for table in _tables(document.rootFrame()):
         _dress_table(table, look)
+    if has_right_to_left(document.firstBlock().text()):
+        _mirror(document)
     for block in reversed([block for block in _blocks(document) if block.text().startswith(_TRY)]):
         _frame(block, look)
+
+
+def _mirror(document: QTextDocument) -> None:
+    """Words from right to left, formulas on that side too; code stays where it is."""
+    for block in _blocks(document):
+        shape = QTextBlockFormat(block.blockFormat())
+        if has_right_to_left(block.text()):
+            shape.setLayoutDirection(Qt.LayoutDirection.RightToLeft)
+        elif not _is_code(shape):
+            shape.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignAbsolute)
+            shape.setRightMargin(shape.leftMargin())
+            shape.setLeftMargin(0.0)
+        QTextCursor(block).setBlockFormat(shape)
+
+
+def _is_code(shape: QTextBlockFormat) -> bool:
+    properties = (QTextFormat.Property.BlockCodeLanguage, QTextFormat.Property.BlockCodeFence)
+    return any(shape.hasProperty(one) for one in properties)
 
 
 def _frame(block: QTextBlock, look: Look) -> None:
@@ -191,9 +225,7 @@ def _dress_block(block: QTextBlock, look: Look, slugs: Iterator[str]) -> None:
         _dress_heading(block, level, next(slugs, slug_of(block.text())))
         shape.setTopMargin(0.0 if level == 1 else 16.0)
         shape.setBottomMargin(6.0)
-    elif shape.hasProperty(QTextFormat.Property.BlockCodeLanguage) or shape.hasProperty(
-        QTextFormat.Property.BlockCodeFence
-    ):
+    elif _is_code(shape):
         shape.setBackground(look.ground)
         shape.setLeftMargin(_INDENT)
         shape.setNonBreakableLines(False)  # nothing scrolls sideways
