@@ -275,7 +275,7 @@ def test_about_comes_while_the_help_is_in_front(qtbot: QtBot, window: MainWindow
     shown = show_help(window, INDEX)
     with qtbot.waitActive(shown):
         shown.activateWindow()
-    qtbot.keyClick(shown.browser, Qt.Key.Key_F1, Qt.KeyboardModifier.ControlModifier)
+    qtbot.keyClick(shown.windowHandle(), Qt.Key.Key_F1, Qt.KeyboardModifier.ControlModifier)
     (dialog,) = window.findChildren(AboutDialog)
     assert dialog.isVisible()
     dialog.close()
