@@ -63,6 +63,7 @@ class MatrixView(PaintedLines):
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Letters, tints, numbers, brackets."""
         painter = QPainter(self)
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # it takes that of the application by itself
         painter.setFont(number_font(self.font()))
         metrics = QFontMetricsF(painter.font())
         height = self._line_height()

@@ -15,6 +15,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication, QPainter
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index
+from rvsim.language import left_to_right
 
 PAD, GAP = 4, 8
 _CENTER = Qt.AlignmentFlag.AlignCenter
@@ -76,7 +77,7 @@ class RowInk:
         painter.setFont(self.small)
         top = rect.y() + rect.height() - self.line - 2
         for (start, end), number in zip(pairwise(ends), row.numbers, strict=True):
-            painter.drawText(QRect(start, top, end - start - PAD, self.line), RIGHT, number)
+            painter.drawText(QRect(start, top, end - start - PAD, self.line), RIGHT, left_to_right(number))
 
     def _paint_title(self, painter: QPainter, line: QRect, row: RowText) -> None:
         title = self.metrics[row.here].elidedText(row.title, Qt.TextElideMode.ElideRight, line.width())

@@ -100,7 +100,7 @@ def _title(row: Row) -> str:
 def _joint_column(robot: Robot, joint: int, preferences: Preferences) -> Column:
     shown = display(joint_kind(robot, joint), preferences)
     return Column(
-        f"J{joint + 1} {shown.suffix.strip()}",
+        left_to_right(f"J{joint + 1} {shown.suffix.strip()}"),
         f"{tr(robot.joint_names[joint])} [{shown.suffix.strip()}]. {tr(_SORT)}",
         lambda row: format_number(float(row.branch.q[joint]) * shown.factor, shown.decimals),
         lambda row: float(row.branch.q[joint]),

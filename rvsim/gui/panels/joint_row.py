@@ -49,7 +49,7 @@ class JointRow(QWidget):
         self._robot, self._index, self._preferences = robot, index, preferences
         self._kind = joint_kind(robot, index)
         joint = robot.joints[index]
-        title = f"J{index + 1} {tr(joint.name)}"
+        title = tr("J{number} {joint}", number=index + 1, joint=tr(joint.name))
         self.box = JointBox(robot, index, preferences, title)
         self.box.setObjectName(f"joint_value_{index + 1}")
         self.slider = Slider()

@@ -33,7 +33,8 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
         self._limit, self._lit = 0.0, ""
         self.setMouseEnabled(x=False, y=False)
         self.setMenuEnabled(False)
-        self.setLayoutDirection(pg.QtCore.Qt.LayoutDirection.LeftToRight)
+        for part in (self, self.getPlotItem()):  # iterations run from left to right in every language
+            part.setLayoutDirection(pg.QtCore.Qt.LayoutDirection.LeftToRight)
         self.hideButtons()
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
         self.setLogMode(y=True)

@@ -8,13 +8,18 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QKeySequence, QResizeEvent, QShortcut
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
-from rvsim.gui.panels.tables import LEFT, RIGHT, Index, text_metrics
+from rvsim.gui.panels.tables import Index, text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.theme import THEMES
 from rvsim.language import tr
 
 _TOP = QModelIndex()
 _ROOM = 14  # [pixels] beside a text
+_ALIGNMENTS = (  # mirrored where one reads from the right
+    Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter,
+    Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter,
+    Qt.AlignmentFlag.AlignCenter,
+)
 _TALLEST = 9  # rows: more of them scroll
 
 
@@ -73,7 +78,7 @@ class ProgramModel(QAbstractTableModel):
         if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleDescriptionRole):
             return f"{index.row() + 1}. {row.words}\n{row.sentence}"
         if role == Qt.ItemDataRole.TextAlignmentRole:
-            return (RIGHT, LEFT, Qt.AlignmentFlag.AlignCenter)[index.column()]
+            return _ALIGNMENTS[index.column()]
         if role == Qt.ItemDataRole.ForegroundRole and (row.bad or running):
             return QColor(theme.error if row.bad else theme.accent)
         if role == Qt.ItemDataRole.FontRole and running:
@@ -108,6 +113,7 @@ class ProgramList(QTableView):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.verticalHeader().hide()
         self.horizontalHeader().hide()
+        self.horizontalHeader().setMinimumSectionSize(8)  # by itself as wide as the widest letter of the font
         self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         self.horizontalHeader().setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
         self.selectionModel().currentRowChanged.connect(lambda now, _before: self.chosen.emit(now.row()))
