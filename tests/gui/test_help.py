@@ -291,3 +291,12 @@ def test_about_tells_the_versions_and_copies_them(window: MainWindow) -> None:
     for part in ("rvsim ", "Python ", "Qt ", "numpy ", "renderer: "):
         assert part in copied
     dialog.close()
+
+
+def test_the_columns_of_a_page_from_the_right_begin_there() -> None:
+    table = "| 1 | `2` | $3$ |\n|---|---|---|\n| 4 | 5 | 6 |\n\n```\n| a | b |\n```\n"
+    arabic = prepared(f"# \u0627\u0644\u0630\u0631\u0627\u0639\n\n{table}").markdown.splitlines()
+    english = prepared(f"# Arm\n\n{table}").markdown.splitlines()
+    turned = ["|".join(reversed(row.split("|"))) for row in english[2:5]]
+    assert arabic[2:5] == turned != english[2:5]
+    assert arabic[5:] == english[5:]

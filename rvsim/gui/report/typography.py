@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import cache
 from importlib import resources
 from typing import NamedTuple
@@ -58,7 +59,10 @@ SMALL = Face(8.0, 10.0, sans=True, color=MUTED)
 @cache
 def serif_families() -> list[str]:
     """The letters that belong to the formulas, which come with them, then those that are like them."""
-    with resources.as_file(resources.files("ziamath") / "fonts" / "STIXTwoMath-Regular.ttf") as file:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of the library's own import of a font, on some Pythons
+        fonts = resources.files("ziamath") / "fonts"
+    with resources.as_file(fonts / "STIXTwoMath-Regular.ttf") as file:
         number = QFontDatabase.addApplicationFont(str(file))
     own = QFontDatabase.applicationFontFamilies(number) if number >= 0 else []
     return ["STIX Two Text", *own, *_SERIF]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -16,9 +17,13 @@ from rvsim.gui.report.artist import PageArtist, path_data
 from rvsim.gui.report.bundle import Order, free_folder, write_bundle
 from rvsim.gui.report.pages import paginated
 from rvsim.gui.report.strips import Strip
+from rvsim.gui.report.table_strips import _grid
+from rvsim.gui.report.typography import BODY, Text, aside
 from rvsim.lab import default_experiment
 from rvsim.lab.repairs import motion_of, path_of
 from rvsim.lab.report import Cover, Study
+from rvsim.lab.report.values import Column, Table
+from rvsim.language import speak
 from rvsim.motion import track
 
 COVER = Cover("Laboratory 3", "Layla Haddad", "22 November 2026", "It went well.")
@@ -143,3 +148,30 @@ def test_outlines_are_paths_of_svg(qapp) -> None:
     path.cubicTo(1.0, 2.0, 3.0, 4.0, 5.0, 6.5)
     path.lineTo(7.0, 8.0)
     assert path_data(path) == "M0 1C1 2 3 4 5 6.5L7 8"
+
+
+# --- from right to left --------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def arabic() -> Iterator[None]:
+    speak("ar")
+    yield
+    speak("en")
+
+
+def test_on_a_page_from_the_right_words_begin_there_and_nothing_leaves_their_room(qapp, arabic: None) -> None:
+    for words in ("\u0627\u0644\u0645\u0641\u0635\u0644 J1", "q = 3", "3"):
+        text = Text(words, BODY, 200.0)
+        assert text.left + text.width == pytest.approx(200.0)
+    assert aside(200.0, 20.0, 30.0) == 150.0
+    speak("en")
+    assert Text("q = 3", BODY, 200.0).left == aside(200.0, 0.0, 30.0) == 0.0
+
+
+def test_tables_of_words_are_mirrored_and_those_of_numbers_are_not(qapp, arabic: None) -> None:
+    word, number = Column("", "left"), Column("")
+    for columns, mirrored in (((word, word, number), True), ((word, number, number), False)):
+        grid = _grid(Table("", columns, (("a",) * 3,)), 400.0)
+        assert (grid.lefts[0] > grid.lefts[-1]) == mirrored
+        assert grid.left + grid.width == pytest.approx(400.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 from xml.etree import ElementTree
 
@@ -12,12 +13,16 @@ import pytest
 from rvsim import forward_kinematics, jacobian, joint_torques, load_robot, robot_names
 from rvsim.experiment import Load
 from rvsim.lab import default_experiment
+from rvsim.lab.motion_table import motion_csv
 from rvsim.lab.repairs import motion_of, path_of
 from rvsim.lab.report import PARTS, Cover, Document, Study, build, html_page, parts_of
 from rvsim.lab.report.chart import Chart, Curve, Limit, axis, thinned
 from rvsim.lab.report.chart_svg import chart_svg
-from rvsim.lab.report.values import Figure, Formula, Paragraph, ScenePicture, Table, plain
+from rvsim.lab.report.values import Figure, Formula, Formulas, Paragraph, ScenePicture, Table, plain
+from rvsim.lab.script import tracking_script
 from rvsim.lab.sources import errata
+from rvsim.lab.tables import tracking_csv
+from rvsim.language import speak
 from rvsim.motion import track
 from rvsim.playback.recording import Recording
 
@@ -151,6 +156,33 @@ def test_the_page_is_well_formed_and_what_was_typed_stays_text() -> None:
     assert "<b>Second</b>" in "".join(root.itertext())
     assert root.find(".//script") is None
     assert "http" not in page
+
+
+@pytest.fixture
+def arabic() -> Iterator[None]:
+    speak("ar")
+    yield
+    speak("en")
+
+
+def test_a_report_in_arabic_is_read_from_the_right_but_for_its_numbers(arabic: None) -> None:
+    document = build(study_of("rv-m1"), COVER)
+    root = ElementTree.fromstring(html_page(document, _Plain()).removeprefix("<!DOCTYPE html>"))
+    assert (root.get("lang"), root.get("dir")) == ("ar", "rtl")
+    tables = [block for block in document.blocks() if isinstance(block, Table)]
+    assert [element.get("dir") == "ltr" for element in root.iter("table")] == [each.of_numbers for each in tables]
+    assert {each.of_numbers for each in tables} == {True, False}
+    assert all(element.get("direction") == "ltr" for element in root.iter("svg"))
+    formulas = [element for element in root.iter("span") if element.get("class") == "parts"]
+    assert len(formulas) == sum(isinstance(block, Formula | Formulas) for block in document.blocks())
+    assert {element.get("dir") for element in formulas} == {"ltr"}
+
+
+def test_what_is_written_for_machines_is_the_same_in_every_language(arabic: None) -> None:
+    study = study_of("rv-m1")
+    told = (tracking_csv(study.tracking), motion_csv(study.curves), tracking_script(study.tracking))
+    speak("en")
+    assert told == (tracking_csv(study.tracking), motion_csv(study.curves), tracking_script(study.tracking))
 
 
 def test_axes_have_round_numbers_that_lie_on_them() -> None:
