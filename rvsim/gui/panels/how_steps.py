@@ -21,6 +21,8 @@ def wrapped_label(role: str = "") -> QLabel:
     label = QLabel()
     label.setWordWrap(True)
     label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
+    if label.isRightToLeft():  # the blank where a line was broken stands before it, and pushes its end out at the left
+        label.setContentsMargins(label.fontMetrics().horizontalAdvance(" ") + 1, 0, 0, 0)
     if role:
         set_role(label, role=role)
     return label

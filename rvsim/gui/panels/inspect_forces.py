@@ -43,7 +43,7 @@ from rvsim.gui.widgets import button, column_of, combo, scrolled, select, show_w
 from rvsim.gui.wrench_drag import WrenchDrag
 from rvsim.kinematics import pose_and_jacobian
 from rvsim.lab.texts import NamedValue, values_latex, values_numpy, values_text
-from rvsim.language import tr, tr_later
+from rvsim.language import in_its_order, tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.wrench import WrenchArrows, arrow_scale, wrench_items
@@ -85,7 +85,11 @@ class ForcesPage(InspectPage):
         self.clear = button("wrench_clear", tr("No force"), tr("Take the wrench and the payload away"), self._clear)
         self.model = TorqueModel(session.robot, preferences, self.catch_up)
         self.table, self.torques_title = torque_table(self.model), _titled("")
-        self.directions = combo("force_direction", tr("Direction of the largest force"), DIRECTIONS)
+        self.directions = combo(
+            "force_direction",
+            tr("Direction of the largest force"),
+            {name: in_its_order(tr(text)) for name, text in DIRECTIONS.items()},
+        )
         self.directions.setCurrentIndex(self.directions.findData("+z"))
         self.directions.activated.connect(lambda _: self.refresh())
         self.legend, self.largest, self.message = wrapped_label("muted"), wrapped_label(), wrapped_label()
@@ -123,7 +127,7 @@ class ForcesPage(InspectPage):
         carried.addWidget(QLabel(tr("Payload")))
         carried.addWidget(self.payload, 1)
         carried.addWidget(self.clear)
-        show_whole(self.directions)
+        show_whole(self.axes, self.directions)
         asked = FoldingRow(
             group_of(_titled(tr("Largest force along")), stretched=True), group_of(self.directions, stretched=True), 8
         )

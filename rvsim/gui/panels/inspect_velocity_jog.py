@@ -191,8 +191,7 @@ class JogPad(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
         column.addLayout(speeds)
-        column.addLayout(axes)
-        column.addLayout(self._joints)
+        column.addWidget(_from_the_left(axes, self._joints))
         column.addWidget(self.status)
         column.addWidget(self.keys)
 
@@ -362,6 +361,18 @@ class JogPad(QWidget):
         """What cannot be seen does not move the arm."""
         super().hideEvent(event)
         self.release()
+
+
+def _from_the_left(*grids: QGridLayout) -> QWidget:
+    """Grids below each other, minus left of plus in any language, as x goes before y."""
+    widget = QWidget()
+    widget.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+    column = QVBoxLayout(widget)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.setSpacing(8)
+    for grid in grids:
+        column.addLayout(grid)
+    return widget
 
 
 def _slug(what: str | int) -> str:

@@ -67,7 +67,7 @@ class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
         self._preferences = preferences
         self._factor = 1.0
         self.setMouseTracking(True)
-        self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        self.getPlotItem().setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.setObjectName("workspace_map")
         self.setAccessibleName(tr("Section of the workspace"))
         self.setMouseEnabled(x=False, y=False)
