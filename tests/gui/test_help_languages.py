@@ -52,7 +52,11 @@ def test_a_translation_has_the_same_links_formulas_and_parts(code: str) -> None:
 
 
 def test_what_is_bold_is_a_word_of_the_catalogue(code: str) -> None:
-    forms = {form for one in polib.pofile(str(catalogue_file(code))) for form in (one.msgid, one.msgstr)}
+    forms = {
+        form
+        for one in polib.pofile(str(catalogue_file(code)))
+        for form in (one.msgid, one.msgstr, *one.msgstr_plural.values())
+    }
     known = {plain(form) for form in forms} | {plain(form.partition(":")[0]) for form in forms} | {"f1", "esc", "dls λ"}
     missing = [
         (name, bold)
