@@ -38,6 +38,7 @@ from rvsim.scene.paths import path_items
 
 _CHECK_MS = 150  # after the last change
 _DRAWN = 60  # places a move
+_PADDING = 3  # letters that the edges of a button are wide
 _FILES = tr_later("Programs (*.toml)")
 _ADD_TEXTS = {  # of the undo steps
     "joint": tr_later("Add joint move"),
@@ -117,7 +118,8 @@ class ProgramPage(PathPage):
         set_role(label, role="muted")
         row.addWidget(label)
         for kind, text, tip in _ADD:
-            row.addWidget(_narrow(button(f"program_add_{kind}", text, tip, partial(self.add, kind))), 1)
+            made = button(f"program_add_{kind}", text, tip, partial(self.add, kind))
+            row.addWidget(_narrow(made), len(made.text()) + _PADDING)
         return row
 
     def _arrangers(self) -> QHBoxLayout:

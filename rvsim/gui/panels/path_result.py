@@ -83,7 +83,7 @@ class ResultSection(QGroupBox):
         self.setLayout(rows)
 
     def _settle(self) -> None:
-        """A form keeps the heights that its rows had before buttons were added and dressed, until it is told."""
+        """A form keeps the heights that its rows had before they changed and were dressed, until it is told."""
         self.repairs.updateGeometry()
         layout = self.layout()
         assert layout is not None
@@ -125,6 +125,7 @@ class ResultSection(QGroupBox):
         self.points.setEnabled(True)
         self.sentence.setText(tracking_sentence(tracking, self._tracker.units))
         set_role(self.sentence, level="good" if tracking.complete else "warning")
+        QTimer.singleShot(0, self, self._settle)
 
     def _deviation(self, value: float | None, tracking: Tracking) -> str:
         return "\u2013" if value is None else length_error(tracking.robot, value, self._tracker.units)
