@@ -16,6 +16,7 @@ from rvsim.scene.stick import Pose, link_polylines
 FloatArray = NDArray[np.float64]
 
 _LEAST_CONTRAST = 2.2
+_HAND_RADIUS, _PALM = 0.028, 0.55  # of the arm's size; of the way to the tool point
 
 
 def solid_items(pose: Pose, palette: ScenePalette, key: str, alpha: float) -> list[Item]:
@@ -23,9 +24,23 @@ def solid_items(pose: Pose, palette: ScenePalette, key: str, alpha: float) -> li
     if not pose.robot.shapes:
         return _shells(pose, palette, key, alpha)
     T = frames(pose.robot, pose.T)
-    return [
+    items = [
         _solid(shape, _moved(pose, T, shape), f"{key}.solid{index}", _color(pose.robot, shape, palette).faded(alpha))
         for index, shape in enumerate(pose.robot.shapes)
+    ]
+    return items + _hand(pose, T, palette, key, alpha)
+
+
+def _hand(pose: Pose, T: FloatArray, palette: ScenePalette, key: str, alpha: float) -> list[Item]:
+    """What holds the tool point where it is away from the flange, and the robot file gives the tool no shape."""
+    flange, tool = T[-2, :3, 3], T[-1, :3, 3]
+    shaped = any(shape.frame > pose.robot.dof for shape in pose.robot.shapes)
+    if shaped or np.linalg.norm(tool - flange) < 1e-9:
+        return []
+    color, size, palm = palette.gripper.faded(alpha), pose.robot.size, flange + _PALM * (tool - flange)
+    return [
+        Capsule(f"{key}.hand", flange, palm, _HAND_RADIUS * size, color),
+        Capsule(f"{key}.hand_tip", palm, tool, 0.4 * _HAND_RADIUS * size, color),
     ]
 
 
@@ -96,6 +111,7 @@ def _shells(pose: Pose, palette: ScenePalette, key: str, alpha: float) -> list[I
         for number, (_, points) in enumerate(link_polylines(pose))
         for piece in range(len(points) - 1)
     ]
+    items += _hand(pose, frames(pose.robot, pose.T), palette, key, alpha)
     return items + [
         Capsule(f"{key}.housing{index}", point, point + 1e-6, 1.35 * radius, Color.from_hex(joint.color, alpha))
         for index, (joint, point) in enumerate(zip(pose.robot.joints, pose.joints, strict=True))

@@ -87,6 +87,18 @@ def test_the_looks_show_what_they_say(robot: Robot) -> None:
     assert {Capsule, Polyline} <= kinds["both"]
 
 
+def test_a_tool_point_away_from_the_flange_is_held_by_a_hand() -> None:
+    robot = load_robot("rv-m1")
+    assert not any("hand" in item.key for item in arm_items(robot, RVM1_Q, LIGHT, look="solid"))
+    held = robot.with_tool("standard hand")
+    hand = [item for item in arm_items(held, RVM1_Q, LIGHT, look="solid") if "hand" in item.key]
+    np.testing.assert_allclose(hand[0].start, link_transforms(held, RVM1_Q)[-1, :3, 3], atol=1e-12)
+    np.testing.assert_allclose(hand[0].end, hand[1].start, atol=1e-12)
+    np.testing.assert_allclose(hand[1].end, forward_kinematics(held, RVM1_Q)[:3, 3], atol=1e-12)
+    bare = replace(held, shapes=())
+    assert {"hand", "hand_tip"} <= {item.key.split(".")[-1] for item in arm_items(bare, RVM1_Q, LIGHT, look="solid")}
+
+
 def test_an_arm_without_shapes_gets_a_body_of_its_links(robot: Robot) -> None:
     bare = replace(robot, shapes=())
     assert any(isinstance(item, Capsule) for item in arm_items(bare, bare.home, LIGHT, look="solid"))
