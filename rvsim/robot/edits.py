@@ -20,7 +20,10 @@ DH_KEYS: tuple[DHKey, ...] = get_args(DHKey)
 OWN_PREFIX = "my-"  # an edited copy of "rv-m1" is named "my-rv-m1", until it is saved under another name
 _COPY = re.compile(r"(?:edited )?copy of [^;]+ \(([^;()]+)\)(?:;|$)")
 _GEOMETRY = ("theta", "d", "a", "alpha")
+_BAR = 0.03  # the radius of a bar, of the arm's size
 _EDITED = tr_later("of the link before its DH row was edited")
+
+_Piece = tuple[int, FloatArray, FloatArray]
 
 
 def copied_source(robot: Robot) -> str:
@@ -80,11 +83,35 @@ def with_dh_value(robot: Robot, joint: int, key: DHKey, value: float, *, look_of
 
 
 def stretched_shapes(original: Robot, edited: Robot) -> tuple[Shape, ...]:
-    """The shapes of `original`, stretched piece by piece where `edited` (of the same joints) has another a or d."""
+    """The shapes of `original`, stretched piece by piece where `edited` (of the same joints) has another a or d.
+
+    A length that was 0 has nothing that could be stretched: a bar is put there.
+    """
     shapes = original.shapes
     for segment in _changed_segments(original, edited):
         shapes = tuple(_stretched(shape, segment) if shape.frame == segment.frame else shape for shape in shapes)
-    return shapes
+    return (*shapes, *_bars(original, edited)) if shapes else ()
+
+
+def _bars(original: Robot, edited: Robot) -> Iterator[Shape]:
+    for index, (old, new) in enumerate(zip(original.joints, edited.joints, strict=True)):
+        for frame, start, end in _new_pieces(original.convention, index, old, new):
+            yield CapsuleShape(frame, start, end, _BAR * original.size)
+
+
+def _new_pieces(convention: Convention, index: int, old: Joint, new: Joint) -> Iterator[_Piece]:
+    """The pieces of a DH row that were of no length before: (frame, start, end)."""
+    x, origin = np.array([1.0, 0.0, 0.0]), np.zeros(3)
+    new_a = old.a == 0.0 != new.a
+    # With a new a the look of d is no longer on the joint's axis.
+    new_d = new.revolute and new.d != 0.0 and (new_a or old.d == 0.0)
+    z, corner = np.array([0.0, 0.0, 1.0]), origin
+    if convention == "standard":
+        z, corner = np.array([0.0, np.sin(new.alpha), np.cos(new.alpha)]), -new.a * x
+    if new_a:
+        yield (index + 1, corner, origin) if convention == "standard" else (index, origin, new.a * x)
+    if new_d:
+        yield index + 1, corner - new.d * z, corner
 
 
 def _changed_segments(original: Robot, edited: Robot) -> Iterator[_Segment]:

@@ -12,6 +12,7 @@ from rvsim.errors import RobotDefinitionError, UnknownNameError
 from rvsim.kinematics import link_transforms
 from rvsim.robot import BoxShape, CapsuleShape, Joint, LinkMass, Robot
 from rvsim.robot.edits import with_dh_value
+from rvsim.scene.points import link_corners
 
 LENGTHS = st.floats(0.02, 2.0)
 
@@ -58,6 +59,21 @@ def test_the_base_column_grows_with_d1_in_the_base_and_in_link_1(d1):
     np.testing.assert_allclose(place(edited, 1, edited.shapes[1].end), [0, 0, d1], atol=1e-12)
 
 
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+@pytest.mark.parametrize("key", ["a", "d"])
+def test_a_link_that_had_no_length_is_bridged_from_the_axis_before_to_its_own_frame(convention, key):
+    robot = arm(convention, shapes=(CapsuleShape(0, (0, 0, 0), (0, 0, 0.3), 0.1),))
+    joint = {"a": 0, "d": 1}[key]
+    edited = with_dh_value(robot, joint, key, 0.25)
+    bars = [[place(edited, bar.frame, end) for end in (bar.start, bar.end)] for bar in edited.shapes[1:]]
+    T = link_transforms(edited, np.zeros(4))
+    way = np.array([T[joint, :3, 3], link_corners(edited, T)[joint], T[joint + 1, :3, 3]])
+    pieces = [way[0:2], way[1:3]] if convention == "standard" else [way[1:3], way[0:2]]  # d, then a
+    wanted = pieces[:1] if key == "d" else pieces[::-1]
+    np.testing.assert_allclose(bars, wanted, atol=1e-12)
+    assert with_dh_value(edited, joint, key, 0.0, look_of=robot).shapes == robot.shapes
+
+
 @given(LENGTHS)
 def test_what_overhangs_a_link_keeps_its_overhang(a2):
     box = BoxShape(2, (-0.25, 0.02, 0.01), (0.6, 0.1, 0.2))
@@ -83,7 +99,7 @@ def test_a_link_that_was_0_for_a_moment_gets_its_look_back():
     np.testing.assert_array_equal(back.shapes[0].end, robot.shapes[0].end)
 
 
-@pytest.mark.parametrize(("joint", "key"), [(1, "theta"), (1, "alpha"), (3, "d"), (3, "a"), (1, "upper")])
+@pytest.mark.parametrize(("joint", "key"), [(1, "theta"), (1, "alpha"), (3, "d"), (1, "upper")])
 def test_edits_that_change_no_length_of_a_link_leave_its_look_alone(joint, key):
     robot = arm(shapes=(CapsuleShape(2, (-0.5, 0, 0), (0, 0, 0), 0.04), CapsuleShape(4, (0, 0, -1), (0, 0, 0), 0.02)))
     edited = with_dh_value(robot, joint, key, 1.2)
