@@ -38,7 +38,7 @@ from rvsim.scene.paths import path_items
 
 _CHECK_MS = 150  # after the last change
 _DRAWN = 60  # places a move
-_PADDING = 3  # letters that the edges of a button are wide
+_PADDING = 6  # letters that the edges of a button are wide
 _FILES = tr_later("Programs (*.toml)")
 _ADD_TEXTS = {  # of the undo steps
     "joint": tr_later("Add joint move"),
