@@ -94,7 +94,8 @@ def plain_text(latex: str) -> str:
     text = text.replace("^\\circ", "°").replace("\\\\", ";").replace("&", " ")
     text = re.sub(r"\^(\d)", lambda m: _SUPERSCRIPTS[int(m[1])], text)
     text = re.sub(r"_\{?(\d+)\}?", lambda m: "".join(_SUBSCRIPTS[int(d)] for d in m[1]), text)
-    text = re.sub(r"\\([a-zA-Z]+|,) ?", lambda m: _WORDS.get(m[1], m[1] + " "), text)
+    text = re.sub(r"\\(dot|ddot|hat)\{\\?(\w+)\}", lambda m: _WORDS.get(m[2], m[2]) + _ACCENTS[m[1]], text)
+    text = re.sub(r"\\([a-zA-Z]+|[,;]) ?", lambda m: _WORDS.get(m[1], m[1] + " "), text)
     text = text.replace("{", "").replace("}", "").replace("_", "").replace("-", "\u2212")
     return re.sub(r"\s+", " ", text.replace("=", " = ")).strip()
 
@@ -104,8 +105,11 @@ _SUPERSCRIPTS, _SUBSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹", "₀₁₂₃₄₅�
 _WORDS = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "theta": "θ", "lambda": "λ", "varphi": "φ", "psi": "ψ",
     "rho": "ρ", "Sigma": "Σ", "perp": "⊥", "cdot": " · ", "equiv": " ≡ ", ",": " ", "arcsin": "arcsin ", "cos": "cos ",
-    "sin": "sin ", "times": " × ", "arccos": "arccos ", "quad": "  ", "pi": "π",
+    "sin": "sin ", "times": " × ", "arccos": "arccos ", "quad": "  ", "pi": "π", "sigma": "σ", "zeta": "ζ",
+    "omega": "ω", "tau": "τ", "Delta": "Δ", "leq": " ≤ ", "geq": " ≥ ", "pm": "±", "cdots": " ⋯ ", "ldots": "…",
+    "sum": "Σ ", "prod": "Π ", "in": " ∈ ", "Rightarrow": " ⇒ ", "rightarrow": " → ", ";": " ",
 }  # fmt: skip
+_ACCENTS = {"dot": "\u0307", "ddot": "\u0308", "hat": "\u0302"}  # combined with the letter before
 
 
 # --- shapes ----------------------------------------------------------------------------------------------------------

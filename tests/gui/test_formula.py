@@ -75,6 +75,8 @@ def test_a_broken_formula_is_no_exception(qapp, broken):
 
 def test_plain_text_can_be_read_aloud():
     latex = "C = \\cos q_3 = \\frac{u^2+w^2}{2\\,a_2\\,a_3}"
+    assert plain_text("\\sigma_1 \\geq \\sigma_2 \\geq \\ldots") == "σ₁ ≥ σ₂ ≥ …"
+    assert plain_text("\\ddot{q} = J^{+} \\dot{\\zeta}, \\; \\dot{q}_{max}") == "q\u0308 = J^+ ζ\u0307, q\u0307max"
     assert plain_text(latex) == "C = cos q₃ = (u²+w²)/(2 a₂ a₃)"
     assert (
         plain_text("\\operatorname{atan2}(-0.5,\\,\\sqrt{1-C^2}) = -30.00^\\circ") == "atan2(−0.5, √(1−C²)) = −30.00°"

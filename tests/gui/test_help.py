@@ -237,6 +237,9 @@ def test_back_and_forward_remember_the_way(window: MainWindow) -> None:
 def test_the_search_finds_all_words_and_opens_where_they_stand(qtbot: QtBot, window: MainWindow) -> None:
     assert search("gimbal lock")[0].section.page in ("conventions", "tool", "glossary")
     assert search("xyzzy") == ()
+    assert {hit.section for hit in search("σ")} <= {hit.section for hit in search("sigma")}
+    told = " ".join(section.text for page in PAGES.values() for section in page.sections)
+    assert not re.findall(r"\b(?:sigma|geq|leq|omega|ddot|rightarrow)\b", told)
     shown = show_help(window, INDEX)
     qtbot.keyClicks(shown.words, "gimbal lock")
     assert "conventions.md" in shown.browser.toMarkdown()

@@ -17,6 +17,7 @@ _INLINE_MATH = re.compile(r"\$([^$\n]+)\$")
 _LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
 _AROUND = 70  # signs that are shown on each side of what was found
 _WEIGHTS = (60, 25, 1)  # of a word in the page's title, in the section's, in its text
+_SHORTEST_NAME = 4  # of a Greek letter that is looked for too: "pi" is in too many other words
 
 
 class Section(NamedTuple):
@@ -101,7 +102,7 @@ def slug_of(title: str) -> str:
 
 def search(words: str) -> tuple[Hit, ...]:
     """The sections in which every word occurs, also inside longer words; the best first."""
-    wanted = words.casefold().split()
+    wanted = [_forms(word) for word in words.casefold().split()]
     if not wanted:
         return ()
     found = []
@@ -113,21 +114,28 @@ def search(words: str) -> tuple[Hit, ...]:
     return tuple(Hit(section, title, _excerpt(section.text, wanted)) for _, title, section in sorted(found))
 
 
-def _score(page: HelpPage, section: Section, wanted: list[str]) -> int:
+def _forms(word: str) -> tuple[str, ...]:
+    """A word, and the Greek letter that it names: formulas have σ, not "sigma"."""
+    letter = plain_text(f"\\{word}") if word.isalpha() and len(word) >= _SHORTEST_NAME else ""
+    return (word, letter.casefold()) if len(letter) == 1 else (word,)
+
+
+def _score(page: HelpPage, section: Section, wanted: list[tuple[str, ...]]) -> int:
     """0 when a word is missing; a word counts more in a title."""
     texts = [text.casefold() for text in (page.title, section.title, section.text)]
     total = 0
-    for word in wanted:
-        points = sum(weight * min(text.count(word), 5) for weight, text in zip(_WEIGHTS, texts, strict=True))
-        if not any(word in text for text in texts[1:]):
+    for forms in wanted:
+        counts = [sum(map(text.count, forms)) for text in texts]
+        points = sum(weight * min(count, 5) for weight, count in zip(_WEIGHTS, counts, strict=True))
+        if not any(counts[1:]):
             return 0
         total += points
     return total
 
 
-def _excerpt(text: str, wanted: list[str]) -> str:
+def _excerpt(text: str, wanted: list[tuple[str, ...]]) -> str:
     low = text.casefold()
-    places = [low.find(word) for word in wanted if word in low]
+    places = [low.find(word) for forms in wanted for word in forms if word in low]
     if not places:
         return text[: 2 * _AROUND] + ("…" if len(text) > 2 * _AROUND else "")
     first, last = max(min(places) - _AROUND, 0), min(places) + _AROUND
