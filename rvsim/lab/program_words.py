@@ -38,7 +38,14 @@ def _joint(move: JointMove, robot: Robot, units: Units) -> str:
     if len(move.q) != len(names):
         return trn("joints of an arm with {n} joint", "joints of an arm with {n} joints", len(move.q))
     values = (joint_amount(robot, name, value, units) for name, value in zip(names, move.q, strict=True))
-    return tr("joints to ({values}), {percent}", values=", ".join(values), percent=_percent(move.speed))
+    return tr("joints to ({values}), {percent}", values=", ".join(_alike(values)), percent=_percent(move.speed))
+
+
+def _alike(values: Iterable[str]) -> list[str]:
+    """The angles with a digit behind the point where one of them has one."""
+    texts = list(values)
+    exact = any("." in text for text in texts if text.endswith("°"))
+    return [text.replace("°", ".0°") if exact and "." not in text else text for text in texts]
 
 
 def _line(move: LineMove, robot: Robot, units: Units) -> str:
@@ -149,4 +156,4 @@ def _place(place: Iterable[float], robot: Robot, units: Units) -> str:
 
 
 def _percent(share: float) -> str:
-    return f"{100.0 * share:.0f} %"
+    return f"{100.0 * share:.0f}\N{NO-BREAK SPACE}%"

@@ -20,6 +20,7 @@ TURNED = tuple(np.radians([10.0, 20.0, -30.0, 0.0, 0.0]))
     [
         (JointMove(pose="home"), "joints to “home”, 50 %"),
         (JointMove(TURNED, speed=1.0), "joints to (10°, 20°, −30°, 0°, 0°), 100 %"),
+        (JointMove((*TURNED[:4], 0.5)), "joints to (10.0°, 20.0°, −30.0°, 0.0°, 28.6°), 50 %"),
         (LineMove((0.3, -0.1, 0.2), "free"), "line to (300.0, −100.0, 200.0) mm, tool free, 50 %"),
         (ArcMove((0.3, 0, 0.3), (0.3, 0.1, 0)), "arc over (300.0, 0.0, 300.0) mm to (300.0, 100.0, 0.0) mm, 50 %"),
         (Wait(1.5), "wait 1.5 s"),
@@ -28,11 +29,13 @@ TURNED = tuple(np.radians([10.0, 20.0, -30.0, 0.0, 0.0]))
     ],
 )  # fmt: skip
 def test_a_move_is_one_line(move: Move, words: str) -> None:
-    assert move_words(move, RVM1) == words
+    assert move_words(move, RVM1).replace("\N{NO-BREAK SPACE}%", " %") == words
+    assert " %" not in move_words(move, RVM1)  # a line of the list must not break there
 
 
 def test_other_units_and_arms_without_one() -> None:
-    assert move_words(LineMove((0.3, 0.0, 0.2)), RVM1, Units("rad", "m")) == "line to (0.300, 0.000, 0.200) m, 50 %"
+    words = move_words(LineMove((0.3, 0.0, 0.2)), RVM1, Units("rad", "m"))
+    assert words == "line to (0.300, 0.000, 0.200) m, 50\N{NO-BREAK SPACE}%"
     assert "units" in move_words(LineMove((1.0, 0.0, 2.0)), load_robot("rrrp"))
 
 

@@ -141,8 +141,8 @@ class ProgramPage(PathPage):
             (
                 ("run", tr("Run program"), tr("Play it from where the arm is, as far as it can be done"), self.run),
                 ("check", tr("Check"), tr("Say whether each move can be done"), self.check),
-                ("save", tr("Save …"), tr("Write it to a file"), self.ask_save),
-                ("open", tr("Open …"), tr("Take one from a file"), self.ask_open),
+                ("save", tr("Save…"), tr("Write it to a file"), self.ask_save),
+                ("open", tr("Open…"), tr("Take one from a file"), self.ask_open),
             )
         ):
             grid.addWidget(self._button(name, text, tip, slot, primary=name == "run"), number // 2, number % 2)

@@ -66,7 +66,7 @@ def plot_menu(plot: TimePlot) -> QMenu:
     menu = QMenu(plot)
     menu.setObjectName("plot_menu")
     menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-    menu.addAction(tr("Save as …"), lambda: ask_save_plot(plot)).setObjectName("plot_save")
+    menu.addAction(tr("Save as…"), lambda: ask_save_plot(plot)).setObjectName("plot_save")
     menu.addAction(tr("Copy"), lambda: copy_plot(plot)).setObjectName("plot_copy")
     return menu
 
