@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QComboBox, QSlider, QSpinBox, QWidget
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QHelpEvent, QPaintEvent, QWheelEvent
+from PySide6.QtWidgets import (
+    QComboBox,
+    QSlider,
+    QSpinBox,
+    QStyle,
+    QStyleOptionComboBox,
+    QStylePainter,
+    QToolTip,
+    QWidget,
+)
+
+_EDGES = 4  # [pixels] that a style leaves free beside the text of a list
 
 
 def needs_focus(widget: QWidget) -> None:
@@ -13,7 +24,10 @@ def needs_focus(widget: QWidget) -> None:
 
 
 class ComboBox(QComboBox):
-    """A list that nobody changes by scrolling past it."""
+    """A list that nobody changes by scrolling past it.
+
+    What is chosen ends in … where the room is short; then the whole stands in the tooltip.
+    """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -22,6 +36,37 @@ class ComboBox(QComboBox):
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Only with the focus."""
         super().wheelEvent(event) if self.hasFocus() else event.ignore()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """As any list, its text as far as it fits."""
+        if self.isEditable():
+            super().paintEvent(event)
+            return
+        option = self._option()
+        option.currentText = self._elided(option)
+        painter = QStylePainter(self)
+        painter.drawComplexControl(QStyle.ComplexControl.CC_ComboBox, option)
+        painter.drawControl(QStyle.ControlElement.CE_ComboBoxLabel, option)
+
+    def event(self, event: QEvent) -> bool:
+        """The tooltip, with what is cut off before it."""
+        option = self._option() if event.type() == QEvent.Type.ToolTip and not self.isEditable() else None
+        if option is None or self._elided(option) == option.currentText:
+            return super().event(event)
+        assert isinstance(event, QHelpEvent)
+        QToolTip.showText(event.globalPos(), "\n".join(filter(None, (option.currentText, self.toolTip()))), self)
+        return True
+
+    def _option(self) -> QStyleOptionComboBox:
+        option = QStyleOptionComboBox()
+        self.initStyleOption(option)
+        return option
+
+    def _elided(self, option: QStyleOptionComboBox) -> str:
+        field = QStyle.SubControl.SC_ComboBoxEditField
+        room = self.style().subControlRect(QStyle.ComplexControl.CC_ComboBox, option, field, self).width() - _EDGES
+        room -= 0 if option.currentIcon.isNull() else option.iconSize.width() + _EDGES
+        return self.fontMetrics().elidedText(option.currentText, Qt.TextElideMode.ElideRight, room)
 
 
 class CountBox(QSpinBox):

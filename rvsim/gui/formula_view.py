@@ -188,6 +188,7 @@ class EquationsView(QWidget):
         """Draw what is in sight, and ask for what is not set yet."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # of what stands there as text
         for placed in self._lay_out(self.width()).placed:
             if self._area(placed).intersects(QRectF(event.rect())):
                 self._draw(painter, placed)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QComboBox, QSlider, QWidget
+from PySide6.QtGui import QHelpEvent, QWheelEvent
+from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QComboBox, QSlider, QToolTip, QWidget
 from pytestqt.qtbot import QtBot
 
 from rvsim.gui.app import build_window
@@ -14,6 +14,7 @@ from rvsim.gui.help.examples import panel_names
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
 
+LONG = "A polynomial of the fifth degree, without a jump of the acceleration"
 KINDS = (QComboBox, QAbstractSpinBox, QSlider)
 
 
@@ -73,3 +74,17 @@ def test_with_the_focus_the_wheel_steps(qtbot: QtBot, make: type[QWidget]) -> No
     box.setFocus(Qt.FocusReason.TabFocusReason)
     notch(box)
     assert shown(box) != before
+
+
+@pytest.mark.parametrize(("width", "said"), [(120, f"{LONG}\nThe law"), (900, "The law")])
+def test_what_a_list_cannot_show_whole_stands_in_its_tooltip(qtbot: QtBot, width: int, said: str) -> None:
+    box = ComboBox()
+    box.addItem(LONG)
+    box.setToolTip("The law")
+    qtbot.addWidget(box)
+    box.setFixedWidth(width)
+    box.show()
+    box.grab()
+    QApplication.sendEvent(box, QHelpEvent(QHelpEvent.Type.ToolTip, QPoint(5, 5), box.mapToGlobal(QPoint(5, 5))))
+    assert QToolTip.text() == said
+    QToolTip.hideText()

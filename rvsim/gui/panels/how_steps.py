@@ -35,12 +35,14 @@ class NoteLabel(QLabel):
         super().__init__()
         self.setWordWrap(True)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
-        self.setContentsMargins(12, 2, 0, 2)
+        before, after = (4, 12) if self.isRightToLeft() else (12, 0)
+        self.setContentsMargins(before, 2, after, 2)
         set_role(self, role="muted")
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """The bar, then the text."""
-        QPainter(self).fillRect(0, 0, 3, self.height(), self.palette().mid())
+        side = self.width() - 3 if self.isRightToLeft() else 0
+        QPainter(self).fillRect(side, 0, 3, self.height(), self.palette().mid())
         super().paintEvent(event)
 
 
