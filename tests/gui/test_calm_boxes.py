@@ -76,15 +76,18 @@ def test_with_the_focus_the_wheel_steps(qtbot: QtBot, make: type[QWidget]) -> No
     assert shown(box) != before
 
 
-@pytest.mark.parametrize(("width", "said"), [(120, f"{LONG}\nThe law"), (900, "The law")])
-def test_what_a_list_cannot_show_whole_stands_in_its_tooltip(qtbot: QtBot, width: int, said: str) -> None:
+@pytest.mark.parametrize(("width", "said"), [(120, [LONG]), (900, [])])
+def test_what_a_list_cannot_show_whole_stands_in_its_tooltip(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, width: int, said: list[str]
+) -> None:
+    told: list[str] = []
+    monkeypatch.setattr(QToolTip, "showText", lambda _at, text, _widget: told.append(text))
     box = ComboBox()
     box.addItem(LONG)
-    box.setToolTip("The law")
     qtbot.addWidget(box)
     box.setFixedWidth(width)
     box.show()
     box.grab()
-    QApplication.sendEvent(box, QHelpEvent(QHelpEvent.Type.ToolTip, QPoint(5, 5), box.mapToGlobal(QPoint(5, 5))))
-    assert QToolTip.text() == said
-    QToolTip.hideText()
+    at = QPoint(5, 5)
+    QApplication.sendEvent(box, QHelpEvent(QHelpEvent.Type.ToolTip, at, box.mapToGlobal(at)))
+    assert told == said
