@@ -87,25 +87,33 @@ class Tour(QObject):
         self.shade.setGeometry(room)
         self.shade.light(target)
         self.card.resize(self.card.fitting())
-        self.card.move(place_beside(target, self.card.size(), room))
+        self.card.move(place_beside(target, self.card.size(), room, _seen_at(self._window.tool_card, self._window)))
         for part in (self.shade, self.card):
             part.show()
             part.raise_()
 
 
-def place_beside(target: QRect, size: QSize, room: QRect) -> QPoint:
-    """The upper left corner of a card beside a target: at the right, left, below or above it, else in the middle."""
+def _seen_at(widget: QWidget, window: QWidget) -> QRect:
+    """Where a widget is in its window, an empty place if it is hidden."""
+    return QRect(widget.mapTo(window, QPoint(0, 0)), widget.size()) if widget.isVisible() else QRect()
+
+
+def place_beside(target: QRect, size: QSize, room: QRect, free: QRect | None = None) -> QPoint:
+    """The upper left corner of a card beside a target: at the right, left, below or above it, else in the middle.
+
+    Args:
+        free: what the card should leave free, if it can: beside the target it goes below that.
+    """
     inner = room.adjusted(_EDGE, _EDGE, -_EDGE, -_EDGE)
     top = min(max(target.top(), inner.top()), inner.bottom() - size.height())
     left = min(max(target.left(), inner.left()), inner.right() - size.width())
-    places = (
-        QPoint(target.right() + _GAP, top),
-        QPoint(target.left() - _GAP - size.width(), top),
-        QPoint(left, target.bottom() + _GAP),
-        QPoint(left, target.top() - _GAP - size.height()),
-    )
-    for place in places:
-        if not target.isEmpty() and inner.contains(QRect(place, size)):
+    kept = free or QRect()
+    right, before, lower = target.right() + _GAP, target.left() - _GAP - size.width(), kept.bottom() + _GAP
+    beside = [QPoint(x, y) for x in (right, before) for y in ((top, lower) if free else (top,))]
+    places = (*beside, QPoint(left, target.bottom() + _GAP), QPoint(left, target.top() - _GAP - size.height()))
+    rooms = [(place, QRect(place, size)) for place in places if inner.contains(QRect(place, size))]
+    for place, taken in (*(one for one in rooms if not one[1].intersects(kept)), *rooms):
+        if not target.isEmpty() and not taken.intersects(target):
             return place
     return room.center() - QRect(QPoint(0, 0), size).center()
 

@@ -34,6 +34,9 @@ def test_every_step_points_at_something_and_stays_beside_it(qtbot: QtBot, size: 
         assert not target.isEmpty(), step.title
         assert window.rect().contains(card), step.title
         assert not card.intersects(target), step.title
+        read_out = window.tool_card
+        if step is STEPS[0]:  # beside it there is room
+            assert not card.intersects(QRect(read_out.mapTo(window, QPoint(0, 0)), read_out.size()))
         assert tour.card.height() >= tour.card.layout().totalHeightForWidth(tour.card.width()), step.title
         tour.card.next_button.click()
     assert window.findChild(Tour, "tour") is None
