@@ -70,11 +70,12 @@ class ComboBox(QComboBox):
 
 
 class CountBox(QSpinBox):
-    """A whole number that nobody changes by scrolling past it."""
+    """A whole number that nobody changes by scrolling past it, aligned as other numbers are."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         needs_focus(self)
+        self.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Only with the focus."""
