@@ -218,7 +218,8 @@ def _device() -> str:
         serial.serial_for_url(url, do_not_open=True)
     with ArmDriver(load_robot("al5b"), baud=115200) as driver:
         moved = _drive(driver)
-    return f"{board} moved {moved:.0f}° and stopped; {len(available_ports()) - 1} serial ports here"
+    ports = len(available_ports()) - 1
+    return f"{board} moved {moved:.0f}° and stopped; {ports} serial {'port' if ports == 1 else 'ports'} here"
 
 
 def _drive(driver: Any) -> float:
