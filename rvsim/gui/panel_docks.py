@@ -106,8 +106,8 @@ class PanelDocks:
             if hasattr(page.widget, "close_worker"):
                 page.widget.close_worker()
         for widget in self._window.findChildren(QWidget):
-            if widget.isWindow() and widget.isVisible() and not isinstance(widget, QDockWidget):
-                widget.close()
+            if widget.isWindow() and not isinstance(widget, QDockWidget):
+                _end_dialog(widget)
 
     @property
     def front_page(self) -> str:
@@ -145,3 +145,11 @@ def lies_behind(widget: QWidget) -> bool:
     while parent is not None and not isinstance(parent, QDockWidget):
         parent = parent.parentWidget()
     return parent is not None and parent.visibleRegion().isEmpty()
+
+
+def _end_dialog(dialog: QWidget) -> None:
+    """Its thread too, also where it is hidden: it may go without being closed, when the language changes."""
+    if hasattr(dialog, "close_worker"):
+        dialog.close_worker()
+    if dialog.isVisible():
+        dialog.close()

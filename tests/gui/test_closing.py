@@ -6,10 +6,16 @@ A few of the works that `tests/soak/soak_closing.py` goes through.
 from __future__ import annotations
 
 import importlib
+import threading
 from pathlib import Path
 
 import pytest
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from rvsim.gui.app import build_window
+from rvsim.gui.preferences import Preferences
 
 SOAK = Path(__file__).parents[1] / "soak"
 
@@ -31,3 +37,16 @@ def test_closing_in_the_middle_leaves_nothing(qapp: QApplication, monkeypatch: p
         closing.Closing(work, 0.05, world, watch, slowness=False).run()
     qapp.setQuitOnLastWindowClosed(quits)
     assert not watch.findings, "\n".join(watch.findings)
+
+
+def test_a_window_that_another_one_follows_leaves_no_thread(qtbot: QtBot) -> None:
+    """With the language the window changes: the old one ends, but nobody closes it."""
+    before = set(threading.enumerate())
+    window = build_window(Preferences(), robot="rv-m1")
+    qtbot.addWidget(window)
+    action = window.findChild(QAction, "action_all_experiments")
+    assert action is not None
+    action.trigger()
+    assert set(threading.enumerate()) - before, "something is worked out"
+    window.end()
+    assert set(threading.enumerate()) - before == set()
