@@ -45,12 +45,12 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     assert isinstance(app, QApplication)
     old.setUpdatesEnabled(False)
     old.motion.pause()
-    view, port = view_of(old), port_section(old).settings
+    view, port, tracking = view_of(old), port_section(old).settings, old.session.tracking
     geometry, layout = old.window_layout()
     mirrored = LANGUAGES[code].right_to_left != language().right_to_left
-    old.session.renew()
     old.preferences.renew()
     wear_language(app, code)
+    old.session.renew()  # which says the names of the undo steps again
     prepare_theme(old.preferences)
     new = MainWindow(old.session, old.preferences, old.library, old.choice)
     wear_theme(old.preferences)
@@ -58,7 +58,7 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     new.lay_out(geometry, QByteArray() if mirrored else layout)
     port_section(new).show_settings(port)
     new.document.take_over(old.document)
-    new.tracker.track_quietly(view.tracked, view.tracked_from)
+    new.tracker.take_over(old.tracker, tracking)
     new.motion.take_over(old.motion)
     new.device.take_over(old.device)
     new.served.take_over(old.served)
