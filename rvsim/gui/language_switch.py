@@ -62,10 +62,20 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     new.motion.take_over(old.motion)
     new.device.take_over(old.device)
     new.served.take_over(old.served)
+    new.docks.take_over(old.docks)
     show_view(new, view)
     new.setVisible(old.isVisible())
+    _go_on_with_tour(old, new)
     old.document.autosave.close()
     old.end()
     old.hide()
     old.deleteLater()
     return new
+
+
+def _go_on_with_tour(old: MainWindow, new: MainWindow) -> None:
+    """Who changes the language on the tour is shown the rest of it."""
+    if old.findChild(QObject, "tour") is not None:
+        from rvsim.gui.tour import Tour, begin_tour  # most windows never show it
+
+        begin_tour(new).go(next(tour.step for tour in old.findChildren(Tour)))

@@ -27,13 +27,14 @@ class LatePage(QWidget):
         page: QWidget = self._page
         return page
 
+    def take_over(self, other: LatePage) -> None:
+        """Go on with what the page of another window had begun."""
+        if hasattr(other._page, "take_over"):
+            page: Any = self.page
+            page.take_over(other._page)
+
     def set_seen(self, seen: bool) -> None:
         """It comes to the front, or goes."""
         if seen or self._page is not None:
             page: Any = self.page
             page.set_seen(seen)
-
-    def close_worker(self) -> None:
-        """The window closes."""
-        if hasattr(self._page, "close_worker"):
-            self._page.close_worker()

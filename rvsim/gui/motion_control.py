@@ -70,11 +70,12 @@ class MotionControl(QObject):
         self._tell()
 
     def take_over(self, other: MotionControl) -> None:
-        """Go on with the motion of a window that this one takes the place of, held where it is."""
+        """Go on with the motion of a window that this one takes the place of, held where it is, in its undo step."""
         trajectory, time = other.player.trajectory, other.player.time
         if trajectory is not None:
             self.load(trajectory, again(other._text), other.opening_at)
             self.wait_at(time)
+        self._motion = other._motion
 
     def wait_at(self, time: float) -> None:
         """Hold a moment [s] in which the arm stands already."""

@@ -98,16 +98,25 @@ class PanelDocks:
         self.go_to(dock)
 
     def close_workers(self) -> None:
-        """End the threads of all pages and close the dialogs beside the window, for it closes.
+        """End the threads of all pages and dialogs and close the dialogs beside the window, for it closes.
 
         Qt leaves them open, and what they are at half done.
         """
-        for page in (page for dock in self.right for page in _pages_in(dock)):
-            if hasattr(page.widget, "close_worker"):
-                page.widget.close_worker()
         for widget in self._window.findChildren(QWidget):
-            if widget.isWindow() and not isinstance(widget, QDockWidget):
-                _end_dialog(widget)
+            if hasattr(widget, "close_worker"):  # of a hidden dialog too: it may go without being closed
+                widget.close_worker()
+            if widget.isWindow() and widget.isVisible() and not isinstance(widget, QDockWidget):
+                widget.close()
+
+    def take_over(self, other: PanelDocks) -> None:
+        """Let pages go on with what those of a window had begun that this one takes the place of."""
+        for page, old in zip(self._pages(), other._pages(), strict=True):
+            if hasattr(page.widget, "take_over"):
+                page.widget.take_over(old.widget)
+
+    def _pages(self) -> list[Page]:
+        stacks = [dock.widget() for dock in self.right]
+        return [page for stack in stacks if isinstance(stack, PageStack) for page in stack.pages]
 
     @property
     def front_page(self) -> str:
@@ -129,11 +138,6 @@ class PanelDocks:
         return False
 
 
-def _pages_in(dock: QDockWidget) -> tuple[Page, ...]:
-    pages = dock.widget()
-    return pages.pages if isinstance(pages, PageStack) else ()
-
-
 def takes_tab(widget: QWidget) -> bool:
     """Whether the Tab key stops there."""
     return bool(widget.focusPolicy().value & Qt.FocusPolicy.TabFocus.value) and widget.isVisible()
@@ -145,11 +149,3 @@ def lies_behind(widget: QWidget) -> bool:
     while parent is not None and not isinstance(parent, QDockWidget):
         parent = parent.parentWidget()
     return parent is not None and parent.visibleRegion().isEmpty()
-
-
-def _end_dialog(dialog: QWidget) -> None:
-    """Its thread too, also where it is hidden: it may go without being closed, when the language changes."""
-    if hasattr(dialog, "close_worker"):
-        dialog.close_worker()
-    if dialog.isVisible():
-        dialog.close()

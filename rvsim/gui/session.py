@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import fields
 
 import numpy as np
@@ -24,13 +25,9 @@ class _Change(QUndoCommand):
 
     def __init__(self, session: Session, text: str, after: Experiment, merge: str, follows: str) -> None:
         super().__init__(text)
-        self._text = text
+        self.name = text
         self._session, self.merge, self.follows = session, merge, follows  # `follows`: the key of the change before it
         self._before, self._after = session.experiment, after
-
-    def say_again(self) -> None:
-        """Give it its name in the language that is spoken now."""
-        self.setText(again(self._text))
 
     def continues(self, merge: str) -> bool:
         """Whether a change with that key goes on with this one."""
@@ -55,6 +52,14 @@ class _Change(QUndoCommand):
     def undo(self) -> None:
         """Go to the earlier state."""
         self._session._put(self._before)
+
+
+class _Name(QUndoCommand):
+    """Changes nothing: the first part of a step of several, which knows the step's name where Qt has plain words."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self.name = name
 
 
 class Session(QObject):
@@ -121,6 +126,16 @@ class Session(QObject):
         """Go to another state, undoably. Edits with the same `merge` key in a row become one, until `end_stroke`."""
         self._change(text, experiment, f"{merge}#{self._merge_stroke}" if merge else "")
 
+    @contextmanager
+    def one_step(self, text: str) -> Iterator[None]:
+        """All edits meanwhile are one undo step."""
+        self.undo_stack.beginMacro(text)
+        self.undo_stack.push(_Name(text))
+        try:
+            yield
+        finally:
+            self.undo_stack.endMacro()
+
     def _change(self, text: str, experiment: Experiment, key: str) -> None:
         experiment = self._without_old_typing(experiment)
         last = self._last_change()
@@ -156,8 +171,9 @@ class Session(QObject):
         forget_listeners(self, self.changed, self.settled, self.tracking_changed, self.said)
         forget_listeners(stack, stack.cleanChanged, stack.indexChanged, stack.undoTextChanged, stack.redoTextChanged)
         for command in map(stack.command, range(stack.count())):
-            if isinstance(command, _Change):
-                command.say_again()
+            named = command.child(0) if command.childCount() else command
+            if isinstance(named, _Change | _Name):
+                command.setText(again(named.name))
         self._tracking = None
 
     def end_stroke(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt
+from PySide6.QtCore import QModelIndex, Qt
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLineEdit, QProgressBar, QVBoxLayout
 
@@ -46,7 +46,6 @@ class SourcesDialog(QDialog):
         self.table.doubleClicked.connect(self.show_row)
         self.table.selectionModel().currentRowChanged.connect(lambda *_: self._show_sentence())
         window.preferences.changed.connect(self._on_preference)
-        window.installEventFilter(self)
         self._show_sentence()
 
     # --- construction ----------------------------------------------------------------------------------------------
@@ -116,13 +115,6 @@ class SourcesDialog(QDialog):
     def close_worker(self) -> None:
         """End the thread, for the window closes."""
         self.worker.close()
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """The window behind is closed: no thread may outlive it."""
-        if event.type() == QEvent.Type.Close:
-            self.close_worker()
-            self.hide()
-        return super().eventFilter(watched, event)
 
     def _on_part(self, part: float | tuple[KeyedReproduction, ...]) -> None:
         if isinstance(part, float):

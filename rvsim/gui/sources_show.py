@@ -34,12 +34,11 @@ def show_experiment(window: MainWindow, experiment: SourceExperiment) -> None:
 
 
 def _set_up(window: MainWindow, experiment: SourceExperiment) -> None:
-    session, stack = window.session, window.session.undo_stack
-    stack.beginMacro(tr("Show source {source}, {item}", source=experiment.source, item=tr(experiment.item)))
-    window.document.set_aside()
-    session.use_robot(_bare(window.library[experiment.robot]))
-    session.edit(tr("Set up"), experiment.setup.applied(session.experiment))
-    stack.endMacro()
+    session = window.session
+    with session.one_step(tr("Show source {source}, {item}", source=experiment.source, item=tr(experiment.item))):
+        window.document.set_aside()
+        session.use_robot(_bare(window.library[experiment.robot]))
+        session.edit(tr("Set up"), experiment.setup.applied(session.experiment))
 
 
 def _bare(robot: Robot) -> Robot:

@@ -19,7 +19,7 @@ from rvsim.gui.session import Session
 from rvsim.gui.workers import LatestWorker
 from rvsim.lab.repairs import Offer, motion_of, path_of, track_lifted
 from rvsim.lab.sentences import Units, tracking_sentence
-from rvsim.language import tr
+from rvsim.language import again, tr
 from rvsim.motion import Path, Tracking, Trajectory, track
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -43,6 +43,10 @@ class _Done(NamedTuple):
     def still_holds(self, experiment: Experiment) -> bool:
         """Whether tracking in that state would give the same, from wherever the arm stands."""
         return _same_task(self.kind, self.experiment, experiment, limits_matter=not self._needs_no_choice())
+
+    def again(self) -> _Done:
+        """The same, named in the language that is spoken now."""
+        return self._replace(text=again(self.text))
 
     def _needs_no_choice(self) -> bool:
         """Whether it is whole and within the limits, so that it is the same whether they are heeded or not."""
@@ -172,6 +176,20 @@ class PathTracker(QObject):
         if kind:
             self._quiet = True
             self._track(kind, tr("Track line") if kind == "line" else tr("Track trajectory"), began)
+
+    def take_over(self, other: PathTracker, shown: Tracking | None) -> None:
+        """Go on with the results of a window that this one takes the place of, and with what it was at.
+
+        Args:
+            other: the tracker of that window.
+            shown: the tracked path that it showed.
+        """
+        self.kind = other.kind
+        self._done = [one.again() for one in other._done]
+        self._belonging = WeakKeyDictionary({state: one.again() for state, one in other._belonging.items()})
+        self._session.set_tracking(shown)
+        if other.busy:
+            self.track_quietly(other.asked_for, other.began)
 
     def track_again(self) -> None:
         """The last path once more, for an arm with other limits; nothing is played."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -31,9 +32,11 @@ from rvsim.gui.document_state import state_of
 from rvsim.gui.language_switch import WindowKeeper
 from rvsim.gui.languages import wear_language
 from rvsim.gui.main_window import MainWindow
+from rvsim.gui.panels.device_calibrate import CalibratePage
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.robot_library import RobotLibrary
-from rvsim.language import LANGUAGES, Catalogue, language
+from rvsim.gui.tour import Tour, begin_tour
+from rvsim.language import LANGUAGES, Catalogue, language, tr
 
 
 @pytest.fixture(autouse=True)
@@ -88,6 +91,49 @@ def test_a_switch_keeps_session_undo_file_motion_and_view(keeper: WindowKeeper, 
     assert np.array_equal(window.session.q, q)
 
 
+def test_what_was_tracked_stays_the_same_thing_and_its_motion_one_step(keeper: WindowKeeper, qtbot: QtBot) -> None:
+    window = keeper.window
+    window.tracker.track_line()
+    window.motion.pause()
+    tracking, trajectory = window.session.tracking, window.motion.player.trajectory
+    window.motion.seek(0.5)
+    steps = window.session.undo_stack.count()
+    window = switched(keeper, qtbot, "de")
+    assert window.session.tracking is tracking
+    assert window.tracker.trajectory is window.motion.player.trajectory is trajectory
+    window.motion.seek(1.0)
+    assert window.session.undo_stack.count() == steps
+    window.actions_by_name["undo"].trigger()
+    assert window.motion.player.time == 0.0
+
+
+def test_a_path_that_is_being_worked_out_is_worked_out_by_the_new_window(keeper: WindowKeeper, qtbot: QtBot) -> None:
+    window = keeper.window
+    experiment = window.session.experiment
+    letter = replace(experiment.trajectory, name="letter-flat", orientation="free")
+    window.session.edit("letter", replace(experiment, trajectory=letter))
+    window.tracker.track_trajectory()
+    assert window.tracker.busy
+    window = switched(keeper, qtbot, "de")
+    assert window.tracker.busy
+    qtbot.waitUntil(lambda: window.session.tracking is not None)
+    assert not window.motion.player.playing
+
+
+def test_marks_of_a_calibration_and_the_step_of_the_tour_stay(keeper: WindowKeeper, qtbot: QtBot) -> None:
+    keeper.window.session.use_robot(keeper.window.library["al5b"])
+    keeper.window.docks.show_panel("calibrate")
+    page = keeper.window.findChild(CalibratePage)
+    page.refresh()
+    page._go_on_with(page._wizard.mark(page._wizard.step.expected_us))
+    begin_tour(keeper.window).go(2)
+    window = switched(keeper, qtbot, "ar")
+    other = window.findChild(CalibratePage)
+    other.refresh()
+    assert other._wizard.marks == page._wizard.marks != ()
+    assert window.findChild(Tour).step == 2
+
+
 def test_a_connected_arm_stays_connected_and_does_not_move(keeper: WindowKeeper, qtbot: QtBot) -> None:
     window = keeper.window
     window.session.use_robot(window.library["al5b"])
@@ -105,6 +151,8 @@ def test_a_connected_arm_stays_connected_and_does_not_move(keeper: WindowKeeper,
 
 def test_undo_steps_are_named_in_the_new_language(keeper: WindowKeeper, qtbot: QtBot) -> None:
     keeper.window.joints.go_zero()
+    with keeper.window.session.one_step(tr("Show an example of the help")):
+        keeper.window.joints.go_home()
     english = keeper.window.session.undo_stack.undoText()
     window = switched(keeper, qtbot, "de")
     german = window.session.undo_stack.undoText()
@@ -142,7 +190,8 @@ WORD = re.compile(r"[A-Za-z]{3,}")
 # Names and signs that are the same in every language, and what Qt and pyqtgraph say themselves.
 NAMES = re.compile(
     r"<[^>]*>|&nbsp;|Ctrl|Shift|Alt|Esc|Del|Return|Space|Home|End|Left|Right|Up|Down|Ins|PgUp|PgDown|/dev/\w+|"
-    r"rvsim|Python|LaTeX|Markdown|RMS|DLS|I[xyz]{2}|cos|sin|atan2|det|hat|tau|Scroll (Left|Right)|Close|Float|Export|Language|"
+    r"rvsim|Python|LaTeX|Markdown|RMS|DLS|I[xyz]{2}|cos|sin|atan2|det|hat|tau|Scroll (Left|Right)|Close|Float|Export|"
+    r"Language|"
     r"AllowRandomRestarts|EnforceJointLimits|UseErrorDamping|"
     + "|".join(
         (*(re.escape(title) for title in RobotLibrary().titles.values()), *(one.name for one in LANGUAGES.values()))

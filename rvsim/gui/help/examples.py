@@ -99,13 +99,12 @@ def _set_up(window: MainWindow, wishes: dict[str, str]) -> None:
     wanted = example_experiment(robot, wishes)
     window.motion.pause()
     window.tracker.cancel()
-    session.undo_stack.beginMacro(tr("Show an example of the help"))
-    window.document.set_aside()
-    session.use_robot(robot)
-    before = session.experiment
-    program = wanted.program or before.program
-    session.edit(tr("Set up"), replace(wanted, robot=before.robot, poses=before.poses, program=program))
-    session.undo_stack.endMacro()
+    with session.one_step(tr("Show an example of the help")):
+        window.document.set_aside()
+        session.use_robot(robot)
+        before = session.experiment
+        program = wanted.program or before.program
+        session.edit(tr("Set up"), replace(wanted, robot=before.robot, poses=before.poses, program=program))
     session.say(tr("An example of the help. Undo takes it back."))
 
 

@@ -123,6 +123,11 @@ class CalibratePage(InspectPage):
         self._drawn = None
         super().set_seen(seen)
 
+    def take_over(self, other: CalibratePage) -> None:
+        """Go on with the marks of the page of another window."""
+        self.step.ends.setChecked(other.step.ends.isChecked())
+        self._wizard, self._basis, self._taken = other._wizard, other._basis, other._taken
+
     def refresh(self) -> None:
         """Show the servos of the arm, and where its calibration stands."""
         robot = self._session.robot
