@@ -17,6 +17,7 @@ FloatArray = NDArray[np.float64]
 
 _FIELDS = 8.0  # major fields along the longer side, about
 FLOOR_KEY = "floor"  # an item whose key begins so lies under everything else
+FLOOR_NUMBERS_KEY = f"{FLOOR_KEY}.numbers"
 
 
 def nice_step(rough: float) -> float:
@@ -40,15 +41,24 @@ def floor_items(palette: ScenePalette, extent: Extent, unit: str) -> tuple[Item,
 
     The same arguments give the same objects, so that a renderer draws them again without looking.
     """
-    step = nice_step(max(extent.x_max - extent.x_min, extent.y_max - extent.y_min) / _FIELDS)
+    step = _major_step(extent)
     grid = _rounded_out(extent, step)
     return (
         _plate(palette, grid),
         Segments(f"{FLOOR_KEY}.minor", _lines(grid, step / 2), palette.floor_minor, 1.0),
         Segments(f"{FLOOR_KEY}.major", _lines(grid, step), palette.floor_major, 1.0),
         Segments(f"{FLOOR_KEY}.axes", _cross(grid), palette.floor_axis, 1.0),
-        Labels(f"{FLOOR_KEY}.numbers", _labels(palette, grid, step, unit)),
+        Labels(FLOOR_NUMBERS_KEY, _labels(palette, grid, step, unit)),
     )
+
+
+def line_distance(extent: Extent) -> float:
+    """How far neighbouring lines of that floor are apart [m]: the minor ones lie between the major ones."""
+    return 0.5 * _major_step(extent)
+
+
+def _major_step(extent: Extent) -> float:
+    return nice_step(max(extent.x_max - extent.x_min, extent.y_max - extent.y_min) / _FIELDS)
 
 
 def _rounded_out(extent: Extent, step: float) -> Extent:

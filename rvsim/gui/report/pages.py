@@ -17,6 +17,9 @@ class Placed(NamedTuple):
 
 Page = tuple[Placed, ...]
 
+_FOOT = 0.2  # of a page: a section does not begin so near to its end
+_WORTH = 0.3  # of a page: for so much a section begins before the figures of the last one
+
 
 def paginated(strips: Iterable[Strip], height: float, first: float = 0.0) -> tuple[Page, ...]:
     """Pages of that height; the first one begins `first` below its margin."""
@@ -28,7 +31,7 @@ def paginated(strips: Iterable[Strip], height: float, first: float = 0.0) -> tup
 
 
 class _Book:
-    """Pages that are being filled, and the figures that wait for the next one."""
+    """Pages that are being filled, and the figures and tables that wait for the next one."""
 
     def __init__(self, height: float, first: float) -> None:
         self.pages: list[list[Placed]] = [[]]
@@ -36,15 +39,17 @@ class _Book:
         self._waiting: list[list[Strip]] = []
 
     def add(self, chain: list[Strip]) -> None:
-        """Put a chain on this page, or the next; figures stay in their order."""
-        if self._has_room(chain) and not (self._waiting and chain[0].floats):
+        """Put a chain on this page, or the next; figures stay in their order, and so do tables."""
+        if chain[0].begins:
+            self._begin()
+        if self._has_room(chain) and not self._behind(chain[0]):
             self._put(chain)
         elif chain[0].floats:
             self._waiting.append(chain)
         else:
             self._turn()
-            while self._waiting and not chain[0].again and self._has_room(self._waiting[0]):
-                self._put(self._waiting.pop(0))
+            if not chain[0].again:
+                self._put_waiting()
             if not self._has_room(chain) and self.pages[-1]:
                 self._turn()
             self._put(chain)
@@ -59,6 +64,27 @@ class _Book:
     def _has_room(self, chain: list[Strip]) -> bool:
         needed = sum(strip.height + strip.above for strip in chain) - (0.0 if self.pages[-1] else chain[0].above)
         return self._y + needed <= self._height or needed > self._height  # what fits on no page is cut anywhere
+
+    def _behind(self, strip: Strip) -> bool:
+        """Whether something of its kind waits already."""
+        return bool(strip.floats) and any(chain[0].floats == strip.floats for chain in self._waiting)
+
+    def _begin(self) -> None:
+        """Make the page ready for a section: at most one figure of the last one comes later, and for enough only."""
+        if len(self._waiting) > 1 or (self._waiting and self._left < _WORTH):
+            self.flush()
+        if self.pages[-1] and self._left < _FOOT:
+            self._turn()
+            self._put_waiting()
+
+    @property
+    def _left(self) -> float:
+        """Of the page."""
+        return 1.0 - self._y / self._height
+
+    def _put_waiting(self) -> None:
+        while self._waiting and self._has_room(self._waiting[0]):
+            self._put(self._waiting.pop(0))
 
     def _turn(self) -> None:
         self.pages.append([])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from PySide6.QtCore import QByteArray, QPointF, QRectF
 from PySide6.QtGui import QImage, QPainter, QPen
@@ -40,6 +40,7 @@ _FACES = {"body": faces.BODY, "note": faces.NOTE, "lead": faces.LEAD, "own": fac
 _LED_TO = (Formula, Formulas, Items)  # what the paragraph before speaks of
 
 Draw = Callable[[QPainter, float, float], None]
+Float = Literal["", "figure", "table"]
 
 
 class Strip(NamedTuple):
@@ -51,7 +52,8 @@ class Strip(NamedTuple):
         above: the space above it, which the top of a page swallows.
         keep: not parted from the next one.
         again: what is repeated above it where a page begins with it.
-        floats: may be put on the next page while what follows fills this one.
+        floats: which queue it may wait in for the next page, while what follows fills this one; "" for none.
+        begins: a section begins with it, for which the foot of a page is no place.
     """
 
     height: float
@@ -59,14 +61,15 @@ class Strip(NamedTuple):
     above: float = 0.0
     keep: bool = False
     again: tuple[Strip, ...] = ()
-    floats: bool = False
+    floats: Float = ""
+    begins: bool = False
 
 
 def section_strips(section: Section, width: float) -> Iterator[Strip]:
     """The title of a section, then all its blocks."""
     words = (Run(f"{section.number}  "), Run(section.title))
     title = Text(words, faces.SECTION, width)
-    yield Strip(title.height, _section_title(section, title, width), 26.0, keep=True)
+    yield Strip(title.height, _section_title(section, title, width), 26.0, keep=True, begins=True)
     for block, following in zip(section.blocks, (*section.blocks[1:], None), strict=True):
         strips = list(block_strips(block, width))
         if _belong_together(block, following):
@@ -75,7 +78,9 @@ def section_strips(section: Section, width: float) -> Iterator[Strip]:
 
 
 def _belong_together(block: Block, following: Block | None) -> bool:
-    """What a paragraph leads to, and formulas that are compared."""
+    """What a paragraph leads to, formulas that are compared, and what is remarked on a formula."""
+    if isinstance(following, Paragraph):
+        return isinstance(block, Formula) and following.role == "note"
     if isinstance(block, Formula) and isinstance(following, Formula):
         return bool(block.label and following.label)
     return isinstance(block, Paragraph) and isinstance(following, _LED_TO)
@@ -243,11 +248,11 @@ def _formula_line(begin: float, line: list[Set], gap: float, *, keep: bool = Fal
 
 
 def _figure(block: Figure, width: float) -> Iterator[Strip]:
-    """Pictures; the last one is kept together with the caption below it."""
+    """Pictures with the caption below them, in one piece."""
     for number, picture in enumerate(block.pictures):
         above = 14.0 if number == 0 else 8.0
         strip = _chart(picture, width) if isinstance(picture, Chart) else _picture(picture, width)
-        yield strip._replace(above=above, keep=number == len(block.pictures) - 1, floats=len(block.pictures) == 1)
+        yield strip._replace(above=above, keep=True, floats="figure")
     caption = Text(caption_runs(block.caption), faces.CAPTION, width)
     yield Strip(caption.height, caption.draw, 6.0, keep=True)
     yield Strip(0.0, _nothing, 8.0)

@@ -39,7 +39,7 @@ def table_strips(table: Table, width: float) -> Iterator[Strip]:
     """Caption, head, rows, note."""
     grid = _grid(table, width)
     caption = Text(caption_runs(table.caption), faces.CAPTION, width)
-    yield Strip(caption.height, caption.draw, 14.0, keep=True)
+    yield Strip(caption.height, caption.draw, 14.0, keep=True, floats="table" if len(table.rows) <= _SMALL else "")
     head = _row(tuple(column.head for column in table.columns), table.columns, grid, faces.HEAD, (_THICK, _THIN))
     if any(_is_head(column.head) for column in table.columns):
         yield head._replace(above=4.0, keep=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from functools import cache
 from importlib import resources
 from typing import NamedTuple
@@ -21,13 +22,14 @@ from PySide6.QtGui import (
 )
 
 from rvsim.gui.text_box import wrap_mode
-from rvsim.lab.report.values import Run, Words, runs
+from rvsim.lab.report.values import Run, Style, Words, runs
 from rvsim.language import has_right_to_left, language
 
 FINE = 20.0  # text is set in twentieths of a point, so that rounding is not seen
 INK, MUTED, RULE = QColor("#1D2733"), QColor("#566373"), QColor("#1D2733")
 ACCENT = QColor("#2F55D4")
 _COLORS = {"good": QColor("#00664B"), "warning": QColor("#8A4B00"), "bad": QColor("#B3261E"), "muted": MUTED}
+_LOWERED: Style = "index"  # what is left of such a run is its index alone
 _ARABIC = "Noto Sans Arabic UI"  # which comes with rvsim, and has no other letters
 _SANS = ["Helvetica Neue", "Helvetica", "Arial", "Liberation Sans", "Nimbus Sans", _ARABIC, "DejaVu Sans"]
 _SERIF = ["Times New Roman", "Liberation Serif", "Nimbus Roman", _ARABIC, "DejaVu Serif"]
@@ -104,7 +106,7 @@ class Text:
 
     def __init__(self, words: Words, face: Face, width: float, *, justified: bool = False, scale: float = 1.0) -> None:
         self.face, self._scale, self.room = face, scale, width
-        pieces = [run for run in runs(words) if run.text]
+        pieces = [run for run in _letters(words) if run.text]
         text = "".join(run.text for run in pieces)
         self._layout = QTextLayout(text, font(face))
         side = Qt.AlignmentFlag.AlignRight if from_right() else Qt.AlignmentFlag.AlignLeft
@@ -159,6 +161,17 @@ class Text:
         painter.restore()
 
 
+def _letters(words: Words) -> Iterator[Run]:
+    """Runs of letters: an index is one of its own, lower and smaller."""
+    for run in runs(words):
+        if run.style != "index":
+            yield run
+            continue
+        letter, _, index = run.text.partition("_")
+        yield Run(letter)
+        yield Run(index, _LOWERED)
+
+
 def _direction(text: str) -> Qt.LayoutDirection:
     """On a page that is read from right to left numbers and formulas are not."""
     return Qt.LayoutDirection.RightToLeft if has_right_to_left(text) else Qt.LayoutDirection.LeftToRight
@@ -173,6 +186,8 @@ def _formats(pieces: list[Run], face: Face) -> list[QTextLayout.FormatRange]:
             made.start, made.length = start, length
             look = QTextCharFormat()
             look.setFont(font(face, run.style))
+            if run.style == _LOWERED:
+                look.setVerticalAlignment(QTextCharFormat.VerticalAlignment.AlignSubScript)
             look.setForeground(_COLORS.get(run.style, face.color))
             made.format = look
             formats.append(made)

@@ -45,6 +45,7 @@ class Chart:
         marks: x of vertical lines, for instance where the path begins.
         equal: both axes in the same scale.
         height: of the drawing [pt]; its width is that of the text.
+        named: whether the names of the curves stand below it.
     """
 
     title: str
@@ -55,6 +56,7 @@ class Chart:
     marks: tuple[float, ...] = ()
     height: float = 150.0
     equal: bool = False
+    named: bool = True
 
 
 class Axis(NamedTuple):

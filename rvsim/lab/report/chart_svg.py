@@ -146,7 +146,7 @@ def _titles(chart: Chart) -> Iterator[str]:
 
 def _legend(chart: Chart) -> Iterator[tuple[int, float, Curve]]:
     """Row, place from the left, and curve; a chart of one curve says in its title what it is."""
-    if len(chart.curves) < 2:
+    if len(chart.curves) < 2 or not chart.named:
         return
     row, left = 0, _LEGEND_LEFT
     for curve in chart.curves:

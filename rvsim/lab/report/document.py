@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from rvsim.lab.report.figures import Measures, number_word, scientific, within_limits_words
+from rvsim.lab.report.path_words import path_title
 from rvsim.lab.report.section_end import end_section
 from rvsim.lab.report.section_inverse import inverse_section
 from rvsim.lab.report.section_jacobian import jacobian_section
 from rvsim.lab.report.section_measured import measured_section
-from rvsim.lab.report.section_motion import motion_section
+from rvsim.lab.report.section_motion import between_words, motion_section
 from rvsim.lab.report.section_path import path_section
 from rvsim.lab.report.section_pose import pose_section
 from rvsim.lab.report.section_robot import robot_section
@@ -21,7 +22,7 @@ from rvsim.lab.report.section_torques import torques_section
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Cover, Document, Paragraph, Section, numbered
 from rvsim.lab.sources import errata
-from rvsim.language import tr, tr_later, trn, without_isolates
+from rvsim.language import left_to_right, tr, tr_later, trn, without_isolates
 
 
 class Part(NamedTuple):
@@ -120,16 +121,27 @@ def _path_words(study: Study, measures: Measures) -> list[str]:
     title = tr(tracking.path.title or tracking.path.name)
     if tracking.rms is None:
         return [tr("Of the path “{title}” no point can be reached.", title=title)]
-    rms = scientific(tracking.rms * measures.length.factor)
+    rms = left_to_right(f"{scientific(tracking.rms * measures.length.factor)} {measures.length.unit}")
+    values: dict[str, object] = {
+        "title": title,
+        "percent": left_to_right(f"{100.0 * tracking.reached_count / tracking.samples:.0f} %"),
+        "count": tracking.samples,
+        "rms": rms,
+    }
+    between = between_words(study.curves, measures) if tracking.complete else ""
+    if not between:
+        return [
+            tr(
+                "On the path “{title}” it reaches {percent} of the {count} points; there the deviation is {rms} (RMS).",
+                **values,
+            )
+        ]
     return [
         tr(
-            "On the path “{title}” it reaches {percent:.0f} % of the {count} points, with an RMS deviation of "
-            "{rms} {unit}.",
-            title=title,
-            percent=100.0 * tracking.reached_count / tracking.samples,
-            count=tracking.samples,
-            rms=rms,
-            unit=measures.length.unit,
+            "On the path “{title}” it reaches {percent} of the {count} points; there the deviation is {rms} (RMS), "
+            "and between them, where the joints follow a spline, at most {between}.",
+            **values,
+            between=between,
         )
     ]
 
@@ -157,11 +169,11 @@ def _measured_words(study: Study, measures: Measures) -> list[str]:
 
 def title_of(study: Study) -> str:
     """A title to begin with: the arm and what was done with it."""
-    robot, on_path = study.robot.title, study.tracking is not None
-    if study.recording is None or study.recording.empty:
-        title = tr("{robot}: path", robot=robot) if on_path else tr("{robot}: pose", robot=robot)
-    elif on_path:
-        title = tr("{robot}: path and run on the arm", robot=robot)
+    robot, ran = study.robot.title, study.recording is not None and not study.recording.empty
+    if study.tracking is not None:
+        title = path_title(study, study.tracking.path, ran=ran)
+    elif ran:
+        title = tr("{robot}: a pose, and a motion run on the arm", robot=robot)
     else:
-        title = tr("{robot}: pose and run on the arm", robot=robot)
+        title = tr("{robot}: the kinematics of a pose", robot=robot)
     return without_isolates(title)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -16,6 +17,7 @@ from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 MINUS, DASH = "\u2212", "–"
 ASSUMED = "†"  # behind a number that no source gives
+_TYPED_MINUS = re.compile(r"(?<=\s)-(?=\s?\d)|(?<=\()-(?=\d)|^-(?=\d)")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -35,6 +37,10 @@ class Measure:
         """The number with its unit."""
         space = "" if self.unit == "°" else " "
         return left_to_right(f"{self.text(value)}{space}{self.unit}" if self.unit else self.text(value))
+
+    def shorter(self, value: float) -> str:
+        """A round number with its unit, without decimals that say nothing."""
+        return left_to_right(f"{value * self.factor:.6g} {self.unit}".replace("-", MINUS))
 
     def per(self, below: str) -> Measure:
         """The rate of it: "°/s"."""
@@ -71,6 +77,21 @@ class Measures:
         """Of the axis of all joints: "°", or "°, mm" where the arm turns and slides."""
         return ", ".join(dict.fromkeys(self.joint(index).unit for index in range(self.robot.dof)))
 
+    @property
+    def in_heads(self) -> bool:
+        """Whether all joints have one unit, which the heads of columns can say; else each row has its own."""
+        return len({self.joint(index).unit for index in range(self.robot.dof)}) == 1
+
+    def head(self, words: str, below: str = "") -> str:
+        """The head of a column of joint values or of their rates ("/s"): "limit [°/s]", or "limit [1/s]" for rows
+        that have units of their own."""
+        unit = f"{self.joint_unit}{below}" if self.in_heads else below.replace("/", "1/")
+        return f"{words} [{unit}]" if unit else words
+
+    def unit_cell(self, index: int) -> tuple[str, ...]:
+        """The unit in the row of a joint, where the heads do not say it."""
+        return () if self.in_heads else (self.joint(index).unit,)
+
 
 def number(value: float, decimals: int) -> str:
     """Fixed decimals, a true minus sign, no minus before zero."""
@@ -79,6 +100,11 @@ def number(value: float, decimals: int) -> str:
     if math.isinf(value):
         return "∞" if value > 0 else f"{MINUS}∞"
     return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
+
+
+def with_minus(text: str) -> str:
+    """What somebody has typed, with true minus signs before numbers: "-90" and "q4 - 90"."""
+    return _TYPED_MINUS.sub(MINUS, text)
 
 
 def scientific(value: float) -> str:

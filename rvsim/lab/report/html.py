@@ -98,6 +98,9 @@ def _words(words: Words, artist: Artist) -> str:
 def _run(run: Run, artist: Artist) -> str:
     if run.style == "math":
         return artist.formula(run.text)
+    if run.style == "index":
+        letter, _, index = run.text.partition("_")
+        return f'<span dir="ltr">{escape(letter)}<sub>{escape(index)}</sub></span>'
     tag = {"": "", "bold": "b", "code": "code"}.get(run.style)
     if tag is None:
         return f'<span class="{run.style}">{escape(in_its_order(run.text))}</span>'

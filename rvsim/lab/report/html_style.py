@@ -39,6 +39,7 @@ tr.total td { border-top: .8px solid #1d2733; }
 .left { text-align: start; } .right { text-align: right; } .center { text-align: center; }
 .good { color: #00664b; } .warning { color: #8a4b00; } .bad { color: #b3261e; font-weight: 600; }
 .muted { color: #566373; }
+sub { line-height: 0; }
 @media print { body { background: #fff; font-size: 10pt; } main { box-shadow: none; margin: 0; padding: 0;
   max-width: none; }
   .lead { font-size: 11pt; } table { font-size: 9.5pt; } th, .note { font-size: 8pt; } figcaption { font-size: 8.6pt; }

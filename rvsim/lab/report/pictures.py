@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from rvsim.motion import Tracking
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene import Camera
-from rvsim.scene.build import SceneOptions, compose
+from rvsim.scene.build import SceneOptions, compose, floor_extent
+from rvsim.scene.floor import FLOOR_NUMBERS_KEY, line_distance
 from rvsim.scene.ghosts import Ghost, ghost_items
 from rvsim.scene.palette import LIGHT
 from rvsim.scene.paths import path_items
@@ -31,6 +33,11 @@ def robot_picture(study: Study) -> ScenePicture:
     """The arm in its pose, with its frames."""
     options = SceneOptions("both", frames=True, length_unit=study.units.length)
     return _picture(study, study.q, (), [study.q], options, tr("The arm with its frames."))
+
+
+def floor_distance(robot: Robot) -> float:
+    """How far the lines of the floor are apart in all these pictures [m]."""
+    return line_distance(floor_extent(robot))
 
 
 def branches_picture(study: Study, branches: Sequence[Branch]) -> ScenePicture:
@@ -64,7 +71,9 @@ def _picture(
     text: str,
     more: FloatArray | None = None,
 ) -> ScenePicture:
-    scene = compose(study.robot, q, LIGHT, options, extras)
+    composed = compose(study.robot, q, LIGHT, options, extras)
+    # The edges of the floor, where its numbers stand, lie outside the picture.
+    scene = replace(composed, items=tuple(item for item in composed.items if item.key != FLOOR_NUMBERS_KEY))
     camera = _before(more, _arm_points(study.robot, shown)).fitted(_box(study.robot, shown, more), _WIDTH, _HEIGHT)
     return ScenePicture(scene, camera, _WIDTH, _HEIGHT, text)
 

@@ -25,6 +25,7 @@ from rvsim.lab.report.values import (
     Subheading,
     Table,
     Words,
+    with_indices,
 )
 from rvsim.lab.sentences import failure_sentence
 from rvsim.lab.worked import Equation, Step, WorkedBranch, WorkedSolution, worked_solution
@@ -145,7 +146,7 @@ def _turned(study: Study, end: WorkedBranch) -> np.ndarray[tuple[int, ...], np.d
 def step_blocks(count: int, step: Step) -> Iterator[Block]:
     """A step: its title and reason, its equations, and where a source has it otherwise."""
     text = f" {step.text}" if step.text else ""
-    yield Paragraph((Run(tr("Step {count}. {title}.", count=count, title=step.title), "bold"), Run(text)))
+    yield Paragraph((Run(tr("Step {count}. {title}.", count=count, title=step.title), "bold"), *with_indices(text)))
     for equation in step.equations:
         yield Formula(equation.left, _sides(equation))
     if step.failure:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from rvsim.kinematics.singular_families import SingularFamily, singular_families
 from rvsim.kinematics.singularity import Measures as Values
 from rvsim.kinematics.singularity import Singularity, singularity
-from rvsim.lab.report.figures import Measures, number, small, subscript, table_latex
+from rvsim.lab.report.figures import Measure, Measures, entry, matrix_latex, number, small, subscript
 from rvsim.lab.report.study import Study
-from rvsim.lab.report.values import Block, Column, Formula, Paragraph, Run, Section, Table, Words
+from rvsim.lab.report.values import Block, Column, Formula, Paragraph, Run, Section, Table, Words, with_indices
 from rvsim.language import left_to_right, listed, tr
 
 _NEAR = 0.1  # of a family's term, to be called near
@@ -19,8 +21,8 @@ _NEAR = 0.1  # of a family's term, to be called near
 def jacobian_section(study: Study, measures: Measures) -> Section:
     """J, σ, families."""
     found = singularity(study.robot, study.q)
-    metre = measures.metre
-    joint = "rad" if study.robot.is_revolute.all() else tr("rad or {metre}", metre=metre)
+    unit = measures.length.unit
+    joint = "rad" if study.robot.is_revolute.all() else tr("rad or {metre}", metre=unit)
     return Section(
         tr("The Jacobian"),
         (
@@ -29,15 +31,26 @@ def jacobian_section(study: Study, measures: Measures) -> Section:
                     "The geometric Jacobian at the tool, in base axes: (v, ω) = J q̇. Its first three rows are the "
                     "tool’s velocity in {metre}/s, the last three its turning in rad/s, each for 1 {joint} per second "
                     "of a joint.",
-                    metre=metre,
+                    metre=unit,
                     joint=joint,
                 )
             ),
-            Formula("J", (table_latex(found.J, 4),)),
+            Formula("J", (_numbers(study, measures),)),
             _sigma_table(found, measures),
             *_families(study, found, measures),
         ),
     )
+
+
+def _numbers(study: Study, measures: Measures) -> str:
+    """J with its lengths as they are shown: a joint that slides has a length on both sides."""
+    factor, turning = measures.length.factor, study.robot.is_revolute
+    J = np.array(study.J)
+    J[:3, turning] *= factor
+    J[3:, ~turning] /= factor
+    above, below = (Measure(1.0, "", decimals) for decimals in (min(measures.length.decimals, 4), 4))
+    rows = [[entry(float(value), above if row < 3 else below) for value in J[row]] for row in range(6)]
+    return matrix_latex(rows)
 
 
 def _sigma_table(found: Singularity, measures: Measures) -> Table:
@@ -51,7 +64,8 @@ def _sigma_table(found: Singularity, measures: Measures) -> Table:
     )  # fmt: skip
     rows = tuple(_sigma_row(name, values, most) for name, values in parts)
     note = tr(
-        "w: manipulability, the product of all σ (Yoshikawa). σ mixes {metre} and rad in the first row.",
+        "w: manipulability, the product of all σ (Yoshikawa). All of it with lengths in {metre}; σ mixes {metre} and "
+        "rad in the first row.",
         metre=measures.metre,
     )
     return Table(tr("Singular values of the Jacobian."), columns, rows, note)
@@ -71,7 +85,7 @@ def _families(study: Study, found: Singularity, measures: Measures) -> Iterator[
     active = [*found.families, *found.position_families]
     if active:
         singular = tr("The pose is singular: {names}.", names=listed([family.title for family in active]))
-        yield Paragraph(" ".join((singular, *(family.sentence for family in active))))
+        yield Paragraph(with_indices(" ".join((singular, *(family.sentence for family in active)))))
     elif found.task.rank == found.task.full_rank:
         yield Paragraph(tr("The pose is not singular: the Jacobian of the arm’s task has its full rank."))
     if known:

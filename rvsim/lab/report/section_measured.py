@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import chain
 
 import numpy as np
@@ -18,6 +19,7 @@ from rvsim.robot.arrays import FloatArray
 
 COLORS = {"desired": "#0072B2", "commanded": "#009E73", "measured": "#D55E00", "true": "#CC79A7"}
 _DASHES = {"desired": 0, "commanded": 1, "measured": 2, "true": 3}
+_HIGHEST, _TOGETHER = 92.0, 460.0  # [pt] of a chart, and of those of all joints: they fit on one page
 _TRUE_WORDS = tr_later(
     "“Really” is where the joints of the virtual arm truly were, which nobody can see of a real one."
 )
@@ -124,10 +126,11 @@ def _row(name: str, measure: Measure, values: tuple[float | FloatArray, ...]) ->
 
 
 def _figures(robot: Robot, recording: Recording, measures: Measures) -> Iterator[Block]:
-    charts = tuple(_joint(robot, recording, measures, index) for index in range(robot.dof))
+    charts = [_joint(robot, recording, measures, index) for index in range(robot.dof)]
+    charts[-1] = replace(charts[-1], named=True)  # they all have the same curves
     measured = tr("Each joint: desired, commanded (dashed) and measured (dotted).")
     reported = tr("Each joint: desired, commanded (dashed) and reported (dotted).")
-    yield Figure(measured if recording.is_measured else reported, charts)
+    yield Figure(measured if recording.is_measured else reported, tuple(charts))
     distances = {name: recording.tool_distances(robot, name) for name in recording.sources if name != "desired"}
     lines = tuple(
         Curve(
@@ -159,7 +162,9 @@ def _joint(robot: Robot, recording: Recording, measures: Measures, index: int) -
         if np.isfinite(getattr(recording, name)[:, index]).any()
     )
     title = f"J{index + 1} {tr(robot.joint_names[index])}"
-    return Chart(title, tr("time [s]"), f"[{measure.unit}]", lines, height=96.0)
+    return Chart(
+        title, tr("time [s]"), f"[{measure.unit}]", lines, height=min(_HIGHEST, _TOGETHER / robot.dof), named=False
+    )
 
 
 def _known(t: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -49,11 +49,13 @@ def motion_section(study: Study, measures: Measures) -> Section:
 
 
 def _figures(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> Iterator[Block]:
-    joints = tuple(_joint_chart(curves, measures, order, marks) for order in range(3))
-    yield Figure(
-        tr("Joints, their speeds and their accelerations; limits that are near are hatched."),
-        joints,
+    captions = (
+        tr("The joints over time; limits that are near are hatched."),
+        tr("The speeds of the joints; limits that are near are hatched."),
+        tr("The accelerations of the joints."),
     )
+    for order, caption in enumerate(captions):
+        yield Figure(caption, (_joint_chart(curves, measures, order, marks),))
     yield Figure(tr("Where the tool is, and where the path wants it (dashed)."), (_place(curves, measures, marks),))
     if curves.deviation is not None:
         yield Figure(
@@ -117,6 +119,18 @@ def _deviation(curves: Curves, measures: Measures, marks: tuple[float, ...]) -> 
     factor, unit = fine_unit(deviation, measures)
     line = Curve(tr("deviation"), _OFF_COLOR, curves.times, np.asarray(deviation) * factor)
     return Chart(tr("Deviation from the path"), tr(_TIME), f"[{unit}]", (line,), (), marks, 110.0)
+
+
+def between_words(curves: Curves | None, measures: Measures) -> str:
+    """How far a motion is from the path at most, with a unit; "" where that is not known.
+
+    It passes the points; between them it follows a spline of the joints.
+    """
+    deviation = None if curves is None else curves.deviation
+    if deviation is None or not np.isfinite(deviation).any():
+        return ""
+    factor, unit = fine_unit(deviation, measures)
+    return Measure(factor, unit, 2).amount(float(np.nanmax(deviation)))
 
 
 def fine_unit(values: FloatArray, measures: Measures) -> tuple[float, str]:

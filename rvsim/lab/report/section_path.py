@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 from rvsim.lab.findings import SYMBOLS, WORDS, finding_sentence, summary_sentence
 from rvsim.lab.report.chart import Chart, Curve
 from rvsim.lab.report.figures import ASSUMED, DASH, Measures, number, scientific
+from rvsim.lab.report.path_words import path_formulas, path_words
 from rvsim.lab.report.pictures import path_picture
 from rvsim.lab.report.section_motion import fine_unit
+from rvsim.lab.report.section_robot import unit_columns
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Items, Paragraph, Run, Section, Table, Words
 from rvsim.lab.sentences import advice_sentence, tracking_sentence
@@ -36,16 +38,12 @@ def path_section(study: Study, measures: Measures) -> Section:
     tracking, report = study.tracking, study.check
     assert tracking is not None, "asked for only where a path was tracked"
     assert report is not None, "a tracked path is checked"
-    path = trn(
-        "The path is “{title}”, {n} point.",
-        "The path is “{title}”, {n} points.",
-        tracking.samples,
-        title=tr(tracking.path.title or tracking.path.name),
-    )
+    formulas = path_formulas(study)
     return Section(
         tr("The path"),
         (
-            Paragraph(f"{path} {tracking_sentence(tracking, study.units)}"),
+            Paragraph(" ".join(_about(study, tracking, measures))),
+            *((Items(formulas),) if formulas else ()),
             *((Paragraph(advice_sentence(tracking)),) if not tracking.complete else ()),
             _facts(study, tracking, measures),
             Figure(
@@ -62,6 +60,18 @@ def path_section(study: Study, measures: Measures) -> Section:
             *_peaks(report, measures),
         ),
     )
+
+
+def _about(study: Study, tracking: Tracking, measures: Measures) -> Iterator[str]:
+    """What was asked for, and what came of it."""
+    yield trn(
+        "The path is “{title}”, {n} point.",
+        "The path is “{title}”, {n} points.",
+        tracking.samples,
+        title=tr(tracking.path.title or tracking.path.name),
+    )
+    yield from path_words(study, tracking.path, measures)
+    yield tracking_sentence(tracking, study.units)
 
 
 def _facts(study: Study, tracking: Tracking, measures: Measures) -> Table:
@@ -94,9 +104,11 @@ def _flat(tracking: Tracking, measures: Measures) -> Figure:
     first, second = sorted(np.argsort(np.ptp(points, axis=0))[-2:].tolist())
     factor, unit = measures.length.factor, measures.length.unit
     lifted = np.zeros(len(points), dtype=bool) if tracking.path.pen_up is None else tracking.path.pen_up
+    begins = np.flatnonzero(lifted)
 
     def curve(name: str, color: str, places: FloatArray, there: BoolArray, dash: int) -> Curve:
-        seen = np.where((there & ~lifted)[:, None], places * factor, np.nan)
+        """With a gap before each point to which the pen is lifted; where it comes down a stroke begins."""
+        seen = np.insert(np.where(there[:, None], places * factor, np.nan), begins, np.nan, axis=0)
         return Curve(name, color, seen[:, first], seen[:, second], dash)
 
     everywhere = np.ones(len(points), dtype=bool)
@@ -149,8 +161,9 @@ def _peaks(report: Report, measures: Measures) -> Iterator[Block]:
     if not report.speeds:
         return
     columns = (
-        Column("i", "center"), Column(tr("Joint"), "left"), Column(tr("unit"), "center"), Column("max |q̇| [1/s]"),
-        Column(tr("limit")), Column(tr("share")), Column("max |q̈| [1/s²]"), Column(tr("limit")), Column(tr("share")),
+        Column("i", "center"), Column(tr("Joint"), "left"), *unit_columns(measures),
+        Column(measures.head("max |q̇|", "/s")), Column(tr("limit")), Column(tr("share")),
+        Column(measures.head("max |q̈|", "/s²")), Column(tr("limit")), Column(tr("share")),
     )  # fmt: skip
     pairs = zip(report.speeds, report.accelerations, strict=True)
     rows = tuple(_peak_row(index, speed, rate, report, measures) for index, (speed, rate) in enumerate(pairs))
@@ -165,7 +178,7 @@ def _peaks(report: Report, measures: Measures) -> Iterator[Block]:
 
 def _peak_row(index: int, speed: Peak, rate: Peak, report: Report, measures: Measures) -> tuple[Words, ...]:
     measure = measures.joint(index)
-    cells: list[Words] = [str(index + 1), tr(report.robot.joint_names[index]), measure.unit]
+    cells: list[Words] = [str(index + 1), tr(report.robot.joint_names[index]), *measures.unit_cell(index)]
     for peak in (speed, rate):
         limit = DASH if peak.limit is None else f"{peak.limit.value * measure.factor:.4g}"
         mark = f" {ASSUMED}" if peak.limit is not None and peak.limit.assumed else ""

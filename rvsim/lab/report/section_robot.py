@@ -6,8 +6,17 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from rvsim.lab.report.figures import ASSUMED, DASH, Measure, Measures, number_word, subscript, transform_latex
-from rvsim.lab.report.pictures import robot_picture
+from rvsim.lab.report.figures import (
+    ASSUMED,
+    DASH,
+    Measure,
+    Measures,
+    number_word,
+    subscript,
+    transform_latex,
+    with_minus,
+)
+from rvsim.lab.report.pictures import floor_distance, robot_picture
 from rvsim.lab.report.servo_table import servo_tables
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Formula, Items, Paragraph, Section, Table, Words
@@ -32,7 +41,14 @@ def robot_section(study: Study, measures: Measures) -> Section:
         tr("The robot"),
         (
             Paragraph(_introduction(robot)),
-            Figure(tr("The arm in the pose of this report, with the frames of its table."), (robot_picture(study),)),
+            Figure(
+                tr(
+                    "The arm in the pose of this report, with the frames of its table; the lines of the floor are "
+                    "{distance} apart.",
+                    distance=measures.length.shorter(floor_distance(robot)),
+                ),
+                (robot_picture(study),),
+            ),
             Paragraph(
                 tr(
                     "Its links follow the {convention}; one link is the product",
@@ -131,22 +147,26 @@ def _limits_table(robot: Robot, measures: Measures) -> Table:
     columns = (
         Column("i", "center"),
         Column(tr("Joint"), "left"),
-        Column(tr("unit"), "center"),
-        Column(tr("from")),
-        Column(tr("to")),
-        Column(tr("home")),
-        Column(tr("speed [1/s]")),
-        Column(tr("accel. [1/s²]")),
+        *unit_columns(measures),
+        Column(measures.head(tr("from"))),
+        Column(measures.head(tr("to"))),
+        Column(measures.head(tr("home"))),
+        Column(measures.head(tr("speed"), "/s")),
+        Column(measures.head(tr("accel."), "/s²")),
         Column(tr("torque [N m]") if robot.is_revolute.all() else tr("torque [N m, N]")),
     )
     rows = tuple(_limits_row(index, joint, measures) for index, joint in enumerate(robot.joints))
     assumed = any(_marked(joint) for joint in robot.joints)
-    note = (
-        tr("{assumed} assumed: no source gives it. Speed and acceleration in the joint's unit.", assumed=ASSUMED)
-        if assumed
-        else ""
+    notes = (
+        *((tr("{assumed} assumed: no source gives it.", assumed=ASSUMED),) if assumed else ()),
+        *(() if measures.in_heads else (tr("Speed and acceleration in the joint’s unit."),)),
     )
-    return Table(tr("Limits of the joints, and what their drives may do."), columns, rows, note)
+    return Table(tr("Limits of the joints, and what their drives may do."), columns, rows, " ".join(notes))
+
+
+def unit_columns(measures: Measures) -> tuple[Column, ...]:
+    """The column of the units of joints, where the heads of the others do not say it."""
+    return () if measures.in_heads else (Column(tr("unit"), "center"),)
 
 
 def _marked(joint: Joint) -> bool:
@@ -160,7 +180,8 @@ def _limits_row(index: int, joint: Joint, measures: Measures) -> tuple[Words, ..
     bounds = [measure.text(value, 1) for value in (joint.lower, joint.upper, joint.home)]
     rates = [_rated(datum, measure.factor) for datum in (joint.max_speed, joint.max_acceleration)]
     return (
-        str(index + 1), f"{tr(joint.name)}{mark}", measure.unit, *bounds, *rates, _rated(joint.max_torque, 1.0)
+        str(index + 1), f"{tr(joint.name)}{mark}", *measures.unit_cell(index), *bounds, *rates,
+        _rated(joint.max_torque, 1.0),
     )  # fmt: skip
 
 
@@ -173,7 +194,7 @@ def _rated(datum: Datum | None, factor: float) -> str:
 def _origin(robot: Robot) -> Iterator[Block]:
     if robot.source:
         yield Paragraph(tr("Source of the numbers: {source}.", source=tr(robot.source).rstrip(".")))
-    notes = tuple(line.strip() for line in tr(robot.notes).strip().splitlines() if line.strip())
+    notes = tuple(with_minus(line.strip()) for line in tr(robot.notes).strip().splitlines() if line.strip())
     if notes:
         yield Paragraph(tr("What to know about them:"))
         yield Items(notes)

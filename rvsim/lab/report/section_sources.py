@@ -8,7 +8,7 @@ import numpy as np
 
 from rvsim.lab.report.figures import PLAIN, Measure, Measures, scientific
 from rvsim.lab.report.study import Study
-from rvsim.lab.report.values import Block, Formula, Paragraph, Run, Section
+from rvsim.lab.report.values import Block, Formula, Paragraph, Section, with_indices
 from rvsim.lab.sources import Comparison, Erratum, errata
 from rvsim.language import listed, tr
 from rvsim.robot.arrays import FloatArray
@@ -34,7 +34,7 @@ def sources_section(study: Study, measures: Measures) -> Section:
 
 def _entry(study: Study, entry: Erratum, measures: Measures) -> Iterator[Block]:
     head = tr("Source {source}, {where}: {title}.", source=entry.source, where=tr(entry.where), title=tr(entry.title))
-    yield Paragraph((Run(head, "bold"), Run(f" {tr(entry.why)}")))
+    yield Paragraph((*with_indices(head, "bold"), *with_indices(f" {tr(entry.why)}")))
     for label, formulas in ((tr("printed"), entry.printed_latex), (tr("correct"), entry.right_latex)):
         for number, latex in enumerate(formulas):
             yield Formula("", (latex,), label if number == 0 else " ")

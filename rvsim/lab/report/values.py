@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import count
@@ -12,13 +13,13 @@ from rvsim.lab.report.chart import Chart
 from rvsim.language import tr
 from rvsim.scene import Camera, Scene
 
-Style = Literal["", "bold", "math", "code", "good", "warning", "bad", "muted"]
+Style = Literal["", "bold", "math", "code", "good", "warning", "bad", "muted", "index"]
 Role = Literal["body", "note", "lead", "own"]
 Align = Literal["left", "right", "center"]
 
 
 class Run(NamedTuple):
-    """A piece of text in one style; in the style "math" it is LaTeX."""
+    """A piece of text in one style; in the style "math" it is LaTeX, in "index" a letter, "_" and its index."""
 
     text: str
     style: Style = ""
@@ -33,6 +34,15 @@ def runs(words: Words) -> Runs:
     if isinstance(words, Run):
         return (words,)
     return (Run(words),) if isinstance(words, str) else words
+
+
+_INDEXED = re.compile(r"(?<!\w)([^\W\d_]_[^\W_]{1,2})(?!\w)")
+
+
+def with_indices(text: str, style: Style = "") -> Runs:
+    """Words in which "n_z" is a letter with an index, for what Unicode has no small letters."""
+    pieces = _INDEXED.split(text)
+    return tuple(Run(piece, "index" if number % 2 else style) for number, piece in enumerate(pieces) if piece)
 
 
 def plain(words: Words) -> str:

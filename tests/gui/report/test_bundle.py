@@ -126,10 +126,26 @@ def test_a_table_that_goes_on_has_its_head_again() -> None:
 
 
 def test_a_figure_that_does_not_fit_waits_while_the_text_goes_on() -> None:
-    figure = strip(60.0, floats=True)
+    figure = strip(60.0, floats="figure")
     pages = paginated([strip(50.0), figure, *(strip(10.0) for _ in range(8))], 100.0)
     assert [len(page) for page in pages] == [6, 4]
     assert pages[1][0].strip is figure
+
+
+def test_a_section_begins_neither_at_the_foot_of_a_page_nor_far_before_the_figures_of_the_last_one() -> None:
+    title = strip(10.0, keep=True, begins=True)
+    pages = paginated([strip(85.0), title, strip(10.0)], 100.0)
+    assert [len(page) for page in pages] == [1, 2]
+    figures = [strip(60.0, floats="figure") for _ in range(2)]
+    pages = paginated([strip(50.0), *figures, title, strip(10.0)], 100.0)
+    assert [page[0].strip.floats for page in pages] == ["", "figure", "figure"]
+    assert pages[2][1].strip.begins
+
+
+def test_a_table_does_not_wait_for_a_figure() -> None:
+    figure, small = strip(60.0, floats="figure"), strip(20.0, floats="table")
+    pages = paginated([strip(50.0), figure, small, small], 100.0)
+    assert [[placed.strip.floats for placed in page] for page in pages] == [["", "table", "table"], ["figure"]]
 
 
 # --- formulas of the page ------------------------------------------------------------------------------------------

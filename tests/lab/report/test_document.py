@@ -11,14 +11,15 @@ import numpy as np
 import pytest
 
 from rvsim import forward_kinematics, jacobian, joint_torques, load_robot, robot_names
-from rvsim.experiment import Load
+from rvsim.experiment import Load, Placement, TrajectoryTask
+from rvsim.experiment.shapes import TextShape
 from rvsim.lab import default_experiment
 from rvsim.lab.motion_table import motion_csv
 from rvsim.lab.repairs import motion_of, path_of
-from rvsim.lab.report import PARTS, Cover, Document, Study, build, html_page, parts_of
+from rvsim.lab.report import PARTS, Cover, Document, Study, build, html_page, parts_of, title_of
 from rvsim.lab.report.chart import Chart, Curve, Limit, axis, thinned
 from rvsim.lab.report.chart_svg import chart_svg
-from rvsim.lab.report.values import Figure, Formula, Formulas, Paragraph, ScenePicture, Table, plain
+from rvsim.lab.report.values import Figure, Formula, Formulas, Paragraph, ScenePicture, Table, plain, with_indices
 from rvsim.lab.script import tracking_script
 from rvsim.lab.sources import errata
 from rvsim.lab.tables import tracking_csv
@@ -66,7 +67,9 @@ def test_the_report_of_a_source_arm_says_what_the_kernel_computes(name: str) -> 
     np.testing.assert_allclose(shown[:3, :3], T[:3, :3], atol=5.1e-5)
     length = 1.0 if robot.length_unit == "unit" else 1e3
     np.testing.assert_allclose(shown[:3, 3], length * T[:3, 3], atol=5.1e-3)
-    np.testing.assert_allclose(numbers_of(formula(document, "J").rights[0]), J, atol=5.1e-5)
+    above, below = np.split(numbers_of(formula(document, "J").rights[0]), 2)  # lengths as they are shown
+    np.testing.assert_allclose(above / length, J[:3], atol=5.1e-4 if length == 1.0 else 5.1e-6)
+    np.testing.assert_allclose(below, J[3:], atol=5.1e-5)
     wrench = np.add(study.experiment.load.wrench, (0.0, 0.0, 0.5 * 9.80665, 0.0, 0.0, 0.0))
     torques = numbers_of(formula(document, "\\tau").rights[-1])[:, 0]
     np.testing.assert_allclose(torques, joint_torques(robot, q, wrench), atol=5.1e-4)
@@ -98,6 +101,57 @@ def test_only_the_parts_that_are_wanted_are_there() -> None:
     titles = [section.title for section in build(study, COVER, ("jacobian", "motion")).sections]
     assert titles == ["Summary", "The Jacobian", "How this was computed"]
     assert {part.name for part in PARTS} >= set(parts_of(study))
+
+
+def words(document: Document, title: str) -> str:
+    section = next(section for section in document.sections if section.title == title)
+    return " ".join(plain(block.words) for block in section.blocks if isinstance(block, Paragraph))
+
+
+def test_a_text_is_described_by_what_it_writes_and_where() -> None:
+    experiment = default_experiment(load_robot("rv-m1"))
+    shape = TextShape(0.06, "AB", lift=0.015, spacing=0.005)
+    level = Placement(np.array([0.3, 0.0, 0.16]), np.array([0.0, 0.0, np.pi / 2]))
+    experiment = replace(experiment, trajectory=TrajectoryTask("text", shape=shape, placement=level))
+    tracking = track(experiment.robot, path_of("trajectory", experiment), near=experiment.q)
+    study = Study(experiment, tracking)
+    told = words(build(study, COVER), "The path")
+    assert "“AB” in letters 60 mm high" in told
+    assert "lifted by 15 mm" in told
+    assert "level plane" in told
+    assert "160.0) mm" in told
+    assert title_of(study).endswith("writing “AB”")
+    changed = replace(experiment, trajectory=replace(experiment.trajectory, shape=replace(shape, text="C")))
+    assert "C" not in title_of(replace(study, experiment=changed))
+
+
+def test_a_line_is_described_by_its_ends_and_the_summary_tells_the_deviation_between_the_points() -> None:
+    study = study_of("al5b")
+    start, end = (1e3 * study.tracking.path.points[row] for row in (0, -1))
+    document = build(study, COVER)
+    for point in (start, end):
+        assert ", ".join(f"{value:.1f}" for value in point).replace("-", "−") in words(document, "The path")
+    between = str(table(document, "in numbers").rows[-1][1])
+    assert f"at most {between} " in words(document, "Summary")
+
+
+@pytest.mark.parametrize("counted", [True, False])
+def test_own_weight_is_in_the_share_where_the_student_counts_it(counted: bool) -> None:
+    study = study_of("ur5e", on_path=False)
+    load = replace(study.experiment.load, own_weight=counted)
+    study = replace(study, experiment=study.experiment.with_load(load))
+    shown = table(build(study, COVER), "Torques")
+    heads = [column.head for column in shown.columns]
+    assert ("together" in heads) == counted
+    row = dict(zip(heads, shown.rows[1], strict=True))
+    outer, weight = (float(row[name].replace("−", "-")) for name in ("from F", "own weight"))
+    rated = study.robot.joints[1].max_torque.value
+    assert row["share"] == f"{100.0 * abs(outer + counted * weight) / rated:.0f} %"
+
+
+def test_a_letter_with_an_index_is_told_from_a_name() -> None:
+    assert [run.text for run in with_indices("n_z and Desired_tr") if run.style == "index"] == ["n_z"]
+    assert plain(with_indices("n_z and Desired_tr")) == "n_z and Desired_tr"
 
 
 def test_what_ran_on_an_arm_is_compared_with_what_was_wanted() -> None:
