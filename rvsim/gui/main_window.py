@@ -288,7 +288,8 @@ class MainWindow(QMainWindow):
         if self._told_time.isValid() and self._told_time.elapsed() < _TELL_MS:
             return
         self._told_time.start()
-        self.renderer_label.setText(f"{tr(self.scene_view.renderer.description)}, {milliseconds:.1f} ms")
+        renderer, spent = tr(self.scene_view.renderer.description), f"{milliseconds:.1f}"
+        self.renderer_label.setText(tr("{renderer}, {milliseconds} ms", renderer=renderer, milliseconds=spent))
 
     def _show_device(self, state: DriverState | None) -> None:
         words = f"● {phase_words(state, self.device.title)}"

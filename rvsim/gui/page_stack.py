@@ -9,10 +9,12 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
 
+from rvsim.gui.rows import rows_of
 from rvsim.language import tr
 
-_MOST_IN_ROW = 4
+_WIDEST_ROW = 342  # [pixels]: what a panel can spare on a small screen
 _ROOM = 8  # [pixels] of padding in a button
+_GAP = 2  # [pixels] between buttons
 
 
 class Page(NamedTuple):
@@ -57,15 +59,17 @@ class PageStack(QWidget):
         """Rows of buttons alike in width where there is room; where there is not, each as wide as its own word."""
         rows = QVBoxLayout()
         rows.setContentsMargins(6, 6, 6, 2)
-        rows.setSpacing(2)
-        for first in range(0, len(self._pages), _MOST_IN_ROW):
+        rows.setSpacing(_GAP)
+        made = [self._button(number, page) for number, page in enumerate(self._pages)]
+        counts = rows_of([each.minimumSizeHint().width() for each in made], _GAP, _WIDEST_ROW)
+        for count in counts:
             row = QHBoxLayout()
-            row.setSpacing(2)
-            numbers = range(first, min(first + _MOST_IN_ROW, len(self._pages)))
-            for number in numbers:
-                row.addWidget(self._button(number, self._pages[number]), 1)
-            if first > 0:
-                row.addStretch(_MOST_IN_ROW - len(numbers))
+            row.setSpacing(_GAP)
+            for each in made[:count]:
+                row.addWidget(each, 1)
+            if count < max(counts):
+                row.addStretch(max(counts) - count)
+            del made[:count]
             rows.addLayout(row)
         return rows
 

@@ -117,7 +117,10 @@ class PaintedLines(QWidget):
 
 
 class ElidedLabel(QLabel):
-    """One line of text that ends in … when the room is short; the whole stands in the tooltip."""
+    """A text that ends in … when the room is short; the whole stands in the tooltip.
+
+    It is one line, or a few where it is high enough for them: long words break at their hyphens.
+    """
 
     def __init__(self) -> None:
         super().__init__()
@@ -137,7 +140,14 @@ class ElidedLabel(QLabel):
         """Draw what fits."""
         painter = QPainter(self)
         inner = self.contentsRect()
-        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, inner.width())
-        painter.setPen(self.palette().windowText().color())
         side = QStyle.visualAlignment(self.layoutDirection(), Qt.AlignmentFlag.AlignLeft)
-        painter.drawText(inner, side | Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignAbsolute, text)
+        place = side | Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignAbsolute
+        broken, metrics = place | Qt.TextFlag.TextWordWrap, self.fontMetrics()
+        painter.setPen(self.palette().windowText().color())
+        if metrics.horizontalAdvance(self.text()) > inner.width() and inner.contains(
+            metrics.boundingRect(inner, broken, self.text())
+        ):
+            painter.drawText(inner, broken, self.text())
+            return
+        text = metrics.elidedText(self.text(), Qt.TextElideMode.ElideRight, inner.width())
+        painter.drawText(inner, place, text)

@@ -28,6 +28,7 @@ _TIPS = (
 )
 _VERDICT = len(_HEADS) - 1
 _ROOM_FOR_VERDICT = 500
+_HEAD_PADDING = 14  # [pixels] left and right together
 
 
 class ContestModel(QAbstractTableModel):
@@ -152,8 +153,8 @@ class ContestTable(QTableView):
         texts = (max(names, key=metrics.horizontalAdvance), "✓", "1500", "88.8", "8.8e−88", "8.8e−88")
         for column, text in enumerate(texts):
             head = str(self.model().headerData(column, Qt.Orientation.Horizontal))
-            width = max(metrics.horizontalAdvance(text), metrics.horizontalAdvance(head))
-            self.setColumnWidth(column, width + (44 if column == 0 else 11))
+            width = metrics.horizontalAdvance(text) + (44 if column == 0 else 11)
+            self.setColumnWidth(column, max(width, metrics.horizontalAdvance(head) + _HEAD_PADDING))
         header = self.horizontalHeader()
         stretched = QHeaderView.ResizeMode.Stretch
         header.setSectionResizeMode(0, header.sectionResizeMode(1) if roomy else stretched)

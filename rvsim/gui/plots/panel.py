@@ -25,7 +25,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import format_number
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
-from rvsim.language import left_to_right, tr, tr_later
+from rvsim.language import in_its_order, left_to_right, tr, tr_later
 from rvsim.motion import Trajectory
 from rvsim.playback.curves import Curves, curves_of
 
@@ -78,7 +78,7 @@ class PlotsPanel(QWidget):
     def _button(self, kind: PlotKind) -> QToolButton:
         made = QToolButton()
         made.setObjectName(f"plot_{kind.name}_button")
-        made.setText(tr(kind.sign))
+        made.setText(in_its_order(tr(kind.sign)))
         made.setToolTip(tr(kind.tip))
         made.setAccessibleName(tr(kind.tip))
         made.setCheckable(True)

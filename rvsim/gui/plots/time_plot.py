@@ -138,7 +138,7 @@ class TimePlot(QWidget):
             axis.setStyle(tickLength=-4, tickFont=self.font())
             axis.enableAutoSIPrefix(False)
         self.plot.showGrid(x=True, y=True, alpha=0.15)
-        unit = f" [{self._drawing.unit}]" if self._drawing.unit else ""
+        unit = f" {left_to_right(f'[{self._drawing.unit}]')}" if self._drawing.unit else ""
         size = f"{self.font().pointSizeF():.1f}pt"
         self.plot.setTitle(f"{self._short_title(unit)}{unit}", color=theme.text, size=size)
 
