@@ -26,6 +26,7 @@ Ordinary outcomes ("out of reach") are values, never exceptions.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from difflib import get_close_matches
 
@@ -49,8 +50,23 @@ def _unreadable(path: object, where: str, found: str, expected: str, suggestion:
     return f"{message if expected else found} {suggestion}".rstrip()
 
 
+_TAG = re.compile(r"<(?=\s*[A-Za-z/!?])")
+
+
+def without_markup(text: str) -> str:
+    """A text that no widget takes for HTML: a name in a file could make it read any other file, for instance /dev/zero.
+
+    Where a tag could begin stands "‹" instead.
+    """
+    return _TAG.sub("‹", text)
+
+
 class RvsimError(Exception):
     """The root of every exception that rvsim raises on purpose."""
+
+    def __str__(self) -> str:
+        """The message; what of it is from a file is no markup."""
+        return without_markup(super().__str__())
 
 
 class ShapeError(RvsimError, ValueError):

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
-from rvsim.errors import did_you_mean
+from rvsim.errors import did_you_mean, without_markup
 from rvsim.files.place import Place, Quantity, Unit, Units, count_of, either, list_of, shown
 from rvsim.language import tr, tr_later, trn
 
@@ -59,7 +59,7 @@ class Text:
         )
         if not isinstance(value, str):
             place.refuse(shown(value), expected)
-        text = value.strip()
+        text = without_markup(value.strip())
         if not self.shortest <= len(text) <= self.longest:
             place.refuse(trn("a text of {n} character", "a text of {n} characters", len(text)), expected)
         return text
@@ -67,6 +67,7 @@ class Text:
     def write(self, value: str, units: Units) -> str:
         """One line, or several between triple quotes."""
         del units
+        value = without_markup(value)
         if "\n" not in value:
             return quoted(value)
         body = "\n".join(quoted(line)[1:-1] for line in value.split("\n"))

@@ -48,7 +48,7 @@ from rvsim.spatial import rotation_from_rpy, transform
 FLOATS = st.floats(allow_nan=False, allow_infinity=False)
 SMALL = st.floats(-1e3, 1e3)
 POINT = st.tuples(SMALL, SMALL, SMALL)
-TEXT = st.text(st.characters(exclude_categories=("Cs",)), max_size=30)
+TEXT = st.text(st.characters(exclude_categories=("Cs",), exclude_characters="<"), max_size=30)
 SPEED = st.floats(0.01, 1.0)
 
 
@@ -277,6 +277,32 @@ def test_a_wrong_value_is_refused_with_its_path_in_the_document(keys: tuple[str,
     table[keys[-1]] = value
     with pytest.raises(SessionFileError, match=said):
         session_of(json.dumps(document).encode(), "wrong.rvsim")
+
+
+def test_no_text_of_a_file_is_markup_that_makes_the_window_read_another_file() -> None:
+    evil = '<img src="/dev/zero">'
+    robot = load_robot("rv-m1")
+    joints = tuple(replace(joint, name=f"{evil}{number}") for number, joint in enumerate(robot.joints))
+    robot = replace(robot, name="own", title=evil, notes=evil, source=evil, joints=joints)
+    experiment = replace(default_experiment(robot), poses=(NamedPose(evil, robot.home),))
+    data = session_bytes(SessionState(experiment))
+    for read in (data, data.replace("‹".encode(), b"<")):
+        opened = session_of(read, "x.rvsim").state
+        found = opened.experiment
+        texts = (
+            found.robot.title,
+            found.robot.notes,
+            found.robot.source,
+            *found.robot.joint_names,
+            found.poses[0].name,
+        )
+        assert all(text.startswith('‹img src="/dev/zero">') for text in texts)
+        assert session_bytes(opened) == data
+    assert "a < 3 and 2 <= b" in str(SessionFileError("x", "y", "a < 3 and 2 <= b", ""))
+    for broken in ({"format": evil}, {"format": "rvsim session", "version": 1, evil: 1}):
+        with pytest.raises(SessionFileError) as refused:
+            session_of(json.dumps(broken).encode(), "x.rvsim")
+        assert "<" not in str(refused.value)
 
 
 def test_a_session_that_no_file_may_hold_is_refused_before_anything_is_written(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from rvsim.errors import RvsimError, SessionFileError, did_you_mean
+from rvsim.errors import RvsimError, SessionFileError, did_you_mean, without_markup
 from rvsim.files.kinds import REQUIRED
 from rvsim.files.place import Place, count_of, either, list_of, shown
 from rvsim.files.session.json_text import finite
@@ -146,7 +146,7 @@ class Rows:
 
 @dataclass(frozen=True)
 class Words:
-    """A text, as it stands."""
+    """A text as it stands, but no markup."""
 
     longest: int = 200
     shortest: int = 0
@@ -160,11 +160,11 @@ class Words:
                 trn("a text of {n} character", "a text of {n} characters", len(value)),
                 tr("{shortest} to {longest} characters", shortest=self.shortest, longest=self.longest),
             )
-        return value
+        return without_markup(value)
 
     def plain(self, value: Any) -> str:
         """As it is."""
-        return str(value)
+        return without_markup(str(value))
 
 
 @dataclass(frozen=True)
