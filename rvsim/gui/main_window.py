@@ -393,7 +393,6 @@ class MainWindow(QMainWindow):
         self.served.end()
         self.tracker.close()
         self.target.close()
-        self.laboratory.stop()
         self.docks.close_workers()
         self.collector.end()
 
