@@ -55,11 +55,13 @@ class _Book:
             self._put(chain)
 
     def flush(self) -> None:
-        """What waits, on pages of its own."""
+        """What waits: as much as there is room for on this page, the rest on pages of its own."""
+        self._put_waiting()
         while self._waiting:
-            if not self._has_room(self._waiting[0]) and self.pages[-1]:
+            if self.pages[-1]:
                 self._turn()
             self._put(self._waiting.pop(0))
+            self._put_waiting()
 
     def _has_room(self, chain: list[Strip]) -> bool:
         needed = sum(strip.height + strip.above for strip in chain) - (0.0 if self.pages[-1] else chain[0].above)
@@ -83,8 +85,13 @@ class _Book:
         return 1.0 - self._y / self._height
 
     def _put_waiting(self) -> None:
-        while self._waiting and self._has_room(self._waiting[0]):
-            self._put(self._waiting.pop(0))
+        """As much as there is room for; of each kind in its order."""
+        waiting, self._waiting = self._waiting, []
+        for chain in waiting:
+            if self._has_room(chain) and not self._behind(chain[0]):
+                self._put(chain)
+            else:
+                self._waiting.append(chain)
 
     def _turn(self) -> None:
         self.pages.append([])

@@ -17,7 +17,7 @@ from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 MINUS, DASH = "\u2212", "–"
 ASSUMED = "†"  # behind a number that no source gives
-_TYPED_MINUS = re.compile(r"(?<=\s)-(?=\s?\d)|(?<=\()-(?=\d)|^-(?=\d)")
+_TYPED_MINUS = re.compile(r"(?:(?<=\s)|(?<=\u2066))-(?=\s?\d)|(?<=\()-(?=\d)|^-(?=\d)")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -86,7 +86,7 @@ class Measures:
         """The head of a column of joint values or of their rates ("/s"): "limit [°/s]", or "limit [1/s]" for rows
         that have units of their own."""
         unit = f"{self.joint_unit}{below}" if self.in_heads else below.replace("/", "1/")
-        return f"{words} [{unit}]" if unit else words
+        return f"{words} {left_to_right(f'[{unit}]')}" if unit else words
 
     def unit_cell(self, index: int) -> tuple[str, ...]:
         """The unit in the row of a joint, where the heads do not say it."""

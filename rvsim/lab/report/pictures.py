@@ -27,6 +27,7 @@ _WIDTH, _HEIGHT = 620, 372
 _TURNS = tuple(np.radians([0.0, 60.0, -60.0, 120.0, -120.0, 180.0]).tolist())
 _ASIDE = 0.6  # the cosine between the way to the path and the way to the eye
 _AIR = 0.04  # about what is shown, as a part of its size
+_LINK = 0.12  # of the arm's size: how far its links and frames stand out above its joints
 
 
 def robot_picture(study: Study) -> ScenePicture:
@@ -82,7 +83,8 @@ def _box(robot: Robot, poses: Sequence[FloatArray], more: FloatArray | None) -> 
     """(2, 3) around the base and the arm in all these poses, with some air [m]."""
     points = np.concatenate([np.zeros((1, 3)), _arm_points(robot, poses), *([] if more is None else [more])])
     air = _AIR * max(float(np.ptp(points, axis=0).max()), 0.5 * robot.size)
-    return np.array([points.min(axis=0) - (air, air, 0.0), points.max(axis=0) + air])
+    above = max(air, _LINK * robot.size)
+    return np.array([points.min(axis=0) - (air, air, 0.0), np.add(points.max(axis=0), (air, air, above))])
 
 
 def _arm_points(robot: Robot, poses: Sequence[FloatArray]) -> FloatArray:
