@@ -62,6 +62,7 @@ class DeviceScene(QObject):
         if arm is not None:
             return arm.robot, arm.true_q
         state = self._device.state
-        if state is None or not np.isfinite(state.measured_q).all():
-            return None
-        return self._session.robot, state.measured_q
+        robot = self._session.robot
+        if state is None or len(state.measured_q) != robot.dof or not np.isfinite(state.measured_q).all():
+            return None  # with another number of joints, another arm is just being taken
+        return robot, state.measured_q
