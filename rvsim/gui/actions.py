@@ -7,7 +7,7 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
 from rvsim.gui.action_table import ACTIONS, MENUS, ActionSpec
-from rvsim.language import left_to_right, tr
+from rvsim.language import language, left_to_right, tr
 
 _NATIVE = QKeySequence.SequenceFormat.NativeText
 
@@ -45,6 +45,8 @@ def _action(window: QMainWindow, spec: ActionSpec) -> QAction:
         action.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)
     keys = action.shortcut().toString(_NATIVE)
     action.setToolTip(f"{tr(spec.tip)} ({left_to_right(keys)})" if keys else tr(spec.tip))
+    if language().right_to_left and keys and not keys[-1].isalnum():  # a menu would show .+Ctrl
+        action.setText(f"{action.text()}\t{left_to_right(keys)}")
     return action
 
 
@@ -65,5 +67,5 @@ def _keys_in(menu: QMenu) -> list[tuple[str, str]]:
         if isinstance(inner, QMenu):
             found += _keys_in(inner)
         elif not action.shortcut().isEmpty():
-            found.append((action.text().replace("&", ""), action.shortcut().toString(_NATIVE)))
+            found.append((action.text().partition("\t")[0].replace("&", ""), action.shortcut().toString(_NATIVE)))
     return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QSignalBlocker, Qt
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QHeaderView, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from rvsim.device.driver.state import MEASURED_WORDS, DriverState
 from rvsim.experiment import Experiment
@@ -17,7 +17,7 @@ from rvsim.gui.panels.device_readings import ReadingsModel
 from rvsim.gui.panels.device_wake import WakeSection
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_page import InspectPage
-from rvsim.gui.panels.tables import fit_height, plain_table
+from rvsim.gui.panels.tables import fit_height, keep_whole, plain_table
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
@@ -55,7 +55,7 @@ class DrivePage(InspectPage):
         self.wake = WakeSection(preferences)
         self.readings = ReadingsModel(preferences)
         self.table = plain_table("device_table", tr("Shown, sent and measured joints"), self.readings)
-        self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        keep_whole(self.table, range(1, self.readings.columnCount()), "−180.0°")
         self.measured = wrapped_label("muted")
         self.measured.setObjectName("device_measured_words")
         self._make_buttons()

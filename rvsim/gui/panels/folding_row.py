@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QEvent, QSize
+from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QGridLayout, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
+
+from rvsim.gui.rows import rows_of
 
 
 class FoldingRow(QWidget):
@@ -94,6 +96,70 @@ class FoldingGrid(QWidget):
             self._grid.addWidget(widget, number // columns, number % columns)
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, columns - 1)
+
+
+class WrappedRow(QWidget):
+    """Widgets beside each other, each with its share of the room; in more rows, filled alike, where they would be cut.
+
+    A label may lead the first row.
+    """
+
+    def __init__(self, widgets: Sequence[QWidget], spacing: int, lead: QWidget | None = None) -> None:
+        super().__init__()
+        self._widgets, self._lead = tuple(widgets), lead
+        self._counts: tuple[int, ...] = ()
+        whole = QHBoxLayout(self)
+        self._rows = QVBoxLayout()
+        for layout in (whole, self._rows):
+            layout.setContentsMargins(0, 0, 0, 0)
+            layout.setSpacing(spacing)
+        if lead is not None:
+            whole.addWidget(lead, 0, Qt.AlignmentFlag.AlignTop)
+        whole.addLayout(self._rows, 1)
+        self._place((len(self._widgets),))
+
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """How many stand in each row."""
+        return self._counts
+
+    def minimumSizeHint(self) -> QSize:
+        """As narrow as the widest."""
+        return QSize(max(self._needs()) + self._taken(), super().minimumSizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Another width."""
+        super().resizeEvent(event)
+        self._wrap()
+
+    def event(self, event: QEvent) -> bool:
+        """Other widths of what is in it."""
+        if event.type() == QEvent.Type.LayoutRequest:
+            self._wrap()
+        return super().event(event)
+
+    def _needs(self) -> list[int]:
+        return [widget.minimumSizeHint().width() for widget in self._widgets]
+
+    def _taken(self) -> int:
+        return self._lead.sizeHint().width() + self._rows.spacing() if self._lead else 0
+
+    def _wrap(self) -> None:
+        self._place(rows_of(self._needs(), self._rows.spacing(), self.width() - self._taken()))
+
+    def _place(self, counts: tuple[int, ...]) -> None:
+        if counts == self._counts:
+            return
+        self._counts, rest = counts, list(self._widgets)
+        while (old := self._rows.takeAt(0)) is not None:
+            old.deleteLater() if isinstance(old, QHBoxLayout) else None
+        for count in counts:
+            row = QHBoxLayout()
+            row.setSpacing(self._rows.spacing())
+            for widget in rest[:count]:
+                row.addWidget(widget, widget.minimumSizeHint().width())
+            del rest[:count]
+            self._rows.addLayout(row)
 
 
 def group_of(*widgets: QWidget, stretched: bool) -> QHBoxLayout:

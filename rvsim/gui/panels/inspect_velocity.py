@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QButtonGroup, QPushButton, QVBoxLayout, QWidget
 
+from rvsim.gui.panels.folding_row import WrappedRow
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.inspect_page import InspectPage
 from rvsim.gui.panels.inspect_velocity_acceleration import AccelerationSection
@@ -80,7 +81,7 @@ class VelocityPage(InspectPage):
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
         column.setSpacing(6)
-        column.addLayout(self._mode_row())
+        column.addWidget(self._mode_row())
         column.addWidget(self.axes)
         column.addWidget(self.pad)
         parts: tuple[QWidget, ...] = (self.twist, self.verdict, self.test, self.damping, self.rows, self.assumed)
@@ -90,20 +91,16 @@ class VelocityPage(InspectPage):
         column.addStretch(1)
         column_of(self, scrolled(inside))
 
-    def _mode_row(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(4)
+    def _mode_row(self) -> WrappedRow:
         for number, (mode, (text, tip)) in enumerate(_MODES.items()):
             button = QPushButton(tr(text))
             button.setObjectName(f"velocity_mode_{mode}")
             button.setToolTip(tr(tip))
             button.setCheckable(True)
             button.setChecked(number == 0)
-            button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
             self._modes.addButton(button, number)
-            row.addWidget(button)
         self._modes.idClicked.connect(lambda _: self._refresh_if_seen())
-        return row
+        return WrappedRow(self._modes.buttons(), 4)
 
     @property
     def mode(self) -> Mode:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QSize
-from PySide6.QtGui import QColor, QWheelEvent
+from PySide6.QtGui import QColor, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy
 
 from rvsim.gui.panels.laboratory_looks import CurveLook
@@ -20,6 +20,8 @@ _FLOOR = 1e-17  # what an error of 0 is drawn as: a logarithm needs something
 _MOST_MARKERS = 80
 _AXIS_WIDTH = 58
 _LEAST_HEIGHT, _LIKED_HEIGHT, _TITLE_HEIGHT = 56, 88, 34
+_TITLE_ROOM = 12  # [pixels] at the ends of a title beside the axis
+_SMALLEST = 0.7  # of the usual letters
 _DIM = 70  # alpha of curves beside the lit one
 
 
@@ -87,11 +89,21 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
             axis.setTextPen(theme.muted)
             axis.setStyle(tickLength=-4, tickFont=self.font(), showValues=bool(title))
             axis.showLabel(bool(title))
-            axis.setLabel(title, **{"color": theme.muted, "font-size": f"{self.font().pointSizeF():.1f}pt"})
+        self._write_titles()
         self.showGrid(x=False, y=True, alpha=0.25)
         self.threshold.setPen(pg.mkPen(theme.muted, width=1, style=pg.QtCore.Qt.PenStyle.DashLine))
         self.threshold.label.setColor(theme.muted)
         self._dress_curves()
+
+    def _write_titles(self) -> None:
+        """The one beside the axis in smaller letters where the axis is shorter."""
+        below, beside = self._titles
+        room = self.height() - (_TITLE_HEIGHT if below else 0) - _TITLE_ROOM
+        share = room / max(self.fontMetrics().horizontalAdvance(beside), 1)
+        color = THEMES[self._preferences["theme"]].muted
+        for side, title, smaller in (("bottom", below, 1.0), ("left", beside, max(min(share, 1.0), _SMALLEST))):
+            size = f"{self.font().pointSizeF() * smaller:.1f}pt"
+            self.getAxis(side).setLabel(title, **{"color": color, "font-size": size})
 
     def _dress_curves(self) -> None:
         dark = THEMES[self._preferences["theme"]].dark
@@ -121,6 +133,12 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
         longest = max(max(len(curve) for curve in shown) - 1, 1)
         self.setXRange(0, longest, padding=0.02)
         self.setYRange(np.log10(least), np.log10(most), padding=0.06)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Another room for the title."""
+        super().resizeEvent(event)
+        if hasattr(self, "_titles"):  # pyqtgraph resizes what is not made yet
+            self._write_titles()
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """What is around may scroll."""

@@ -9,13 +9,14 @@ from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QFileDialog, QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from rvsim.errors import RvsimError
 from rvsim.experiment import Experiment
 from rvsim.experiment.program import Gripper, Move, Program, Wait, duplicated, inserted, removed, replaced, shifted
 from rvsim.files.program_file import load_program, save_program
 from rvsim.gui.motion_control import MotionControl
+from rvsim.gui.panels.folding_row import WrappedRow
 from rvsim.gui.panels.how_steps import wrapped_label
 from rvsim.gui.panels.path_page import PathPage
 from rvsim.gui.panels.path_program_editor import MoveEditor
@@ -38,7 +39,7 @@ from rvsim.scene.paths import path_items
 
 _CHECK_MS = 150  # after the last change
 _DRAWN = 60  # places a move
-_PADDING = 6  # letters that the edges of a button are wide
+_LABEL_MARGIN = 5  # [pixels] around it: the word stands beside those in the buttons
 _FILES = tr_later("Programs (*.toml)")
 _ADD_TEXTS = {  # of the undo steps
     "joint": tr_later("Add joint move"),
@@ -100,9 +101,9 @@ class ProgramPage(PathPage):
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
         column.setSpacing(8)
-        column.addLayout(self._adders())
+        column.addWidget(self._adders())
         column.addWidget(self.list)
-        column.addLayout(self._arrangers())
+        column.addWidget(self._arrangers())
         column.addWidget(self.verdict)
         column.addLayout(self._runners())
         column.addWidget(self.editor)
@@ -111,42 +112,40 @@ class ProgramPage(PathPage):
         whole.setContentsMargins(0, 0, 0, 0)
         whole.addWidget(scrolled(inside))
 
-    def _adders(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(4)
+    def _adders(self) -> WrappedRow:
         label = QLabel(tr("Add"))
         set_role(label, role="muted")
-        row.addWidget(label)
-        for kind, text, tip in _ADD:
-            made = button(f"program_add_{kind}", text, tip, partial(self.add, kind))
-            row.addWidget(_narrow(made), len(made.text()) + _PADDING)
-        return row
+        label.setMargin(_LABEL_MARGIN)
+        made = [button(f"program_add_{kind}", text, tip, partial(self.add, kind)) for kind, text, tip in _ADD]
+        return WrappedRow(made, 4, label)
 
-    def _arrangers(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(4)
-        for name, text, tip, slot in (
-            ("up", tr("▲ Up"), tr("Move the chosen one up (Alt+Up)"), lambda: self.shift(-1)),
-            ("down", tr("▼ Down"), tr("Move the chosen one down (Alt+Down)"), lambda: self.shift(1)),
-            ("duplicate", tr("Duplicate"), tr("The chosen one once more"), self.duplicate),
-            ("delete", tr("Delete"), tr("Take the chosen one out (Delete)"), self.delete),
-        ):
-            row.addWidget(_narrow(self._button(name, text, tip, slot)), 1)
-        return row
+    def _arrangers(self) -> WrappedRow:
+        made = [
+            self._button(name, text, tip, slot)
+            for name, text, tip, slot in (
+                ("up", tr("▲ Up"), tr("Move the chosen one up (Alt+Up)"), lambda: self.shift(-1)),
+                ("down", tr("▼ Down"), tr("Move the chosen one down (Alt+Down)"), lambda: self.shift(1)),
+                ("duplicate", tr("Duplicate"), tr("The chosen one once more"), self.duplicate),
+                ("delete", tr("Delete"), tr("Take the chosen one out (Delete)"), self.delete),
+            )
+        ]
+        return WrappedRow(made, 4)
 
-    def _runners(self) -> QGridLayout:
-        grid = QGridLayout()
-        grid.setSpacing(4)
-        for number, (name, text, tip, slot) in enumerate(
-            (
+    def _runners(self) -> QVBoxLayout:
+        made = [
+            self._button(name, text, tip, slot, primary=name == "run")
+            for name, text, tip, slot in (
                 ("run", tr("Run program"), tr("Play it from where the arm is, as far as it can be done"), self.run),
                 ("check", tr("Check"), tr("Say whether each move can be done"), self.check),
                 ("save", tr("Save…"), tr("Write it to a file"), self.ask_save),
                 ("open", tr("Open…"), tr("Take one from a file"), self.ask_open),
             )
-        ):
-            grid.addWidget(self._button(name, text, tip, slot, primary=name == "run"), number // 2, number % 2)
-        return grid
+        ]
+        column = QVBoxLayout()
+        column.setSpacing(4)
+        for pair in (made[:2], made[2:]):
+            column.addWidget(WrappedRow(pair, 4))
+        return column
 
     def _button(
         self, name: str, text: str, tip: str, slot: Callable[[], object], *, primary: bool = False
@@ -427,10 +426,3 @@ def _moments(plan: Plan) -> FloatArray:
     pairs = zip(plan.starts[:-1], plan.starts[1:], plan.moves, strict=False)
     parts = [np.linspace(a, b, _DRAWN) for a, b, move in pairs if not isinstance(move, Wait | Gripper)]
     return np.concatenate([[0.0], *parts])
-
-
-def _narrow(widget: QWidget) -> QWidget:
-    """As narrow as its share of a row."""
-    widget.setMinimumWidth(1)
-    widget.setProperty("compact", True)
-    return widget

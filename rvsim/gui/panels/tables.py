@@ -14,6 +14,7 @@ _AS_SAID = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignAbsolute  # hea
 RIGHT = Qt.AlignmentFlag.AlignRight | _AS_SAID
 LEFT = Qt.AlignmentFlag.AlignLeft | _AS_SAID
 _DOT = 10
+_HEAD_PADDING = 13  # [pixels] that the style keeps left and right of a head, together
 CELL_MARGIN = 9  # [pixels] that a cell keeps left and right of its text, together
 
 
@@ -46,6 +47,26 @@ def fit_height(table: QTableView) -> None:
         table.verticalHeader().setDefaultSectionSize(row)
     rows = row * table.model().rowCount()
     table.setMaximumHeight(table.horizontalHeader().sizeHint().height() + rows + 2 * table.frameWidth() + 2)
+
+
+def keep_whole(table: QTableView, columns: Iterable[int], longest: str) -> None:
+    """Give these columns the room of their heads and of the longest text, also in other fonts; others share the rest.
+
+    A head that changes is asked for again.
+    """
+    columns, header = tuple(columns), table.horizontalHeader()
+
+    def fit() -> None:
+        for column in columns:
+            head = str(table.model().headerData(column, Qt.Orientation.Horizontal))
+            widest = max(table.fontMetrics().horizontalAdvance(text) for text in (head, longest))
+            header.resizeSection(column, widest + _HEAD_PADDING)
+
+    for column in columns:
+        header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
+    table.model().headerDataChanged.connect(fit)
+    header.geometriesChanged.connect(fit)
+    fit()
 
 
 def decimals_that_fit(texts: Callable[[int], Iterable[str]], decimals: int, room: float) -> int:
