@@ -12,6 +12,7 @@ import warnings
 from collections import deque
 from collections.abc import Callable, Iterator
 from functools import lru_cache
+from threading import RLock
 from typing import NamedTuple
 from xml.etree import ElementTree
 
@@ -21,6 +22,7 @@ from PySide6.QtGui import QPainterPath, QTransform
 SIZE = 16.0  # the font size formulas are set at; they are scaled from there
 _DIGIT = 7.92  # how wide every digit is at that size
 _KEPT = 1500  # formulas and shapes that are remembered
+_one_at_a_time = RLock()  # reports set theirs in a thread, for which the library is not made
 
 _PLACE = re.compile(r"\\phantom\{-\}|\{-\}|\\phantom\{0\}|\d+\.\d+")
 _SIGN = re.compile(r"\\[a-zA-Z]+|\d|-")
@@ -170,11 +172,13 @@ def _gap(signs: str, place: int) -> float:
 @lru_cache(maxsize=_KEPT)
 def _layout(shape: str) -> _Layout | None:
     """What stands where, by ziamath; None if the formula is beyond it."""
-    _seen.add(shape)
-    try:
-        return _parsed(_svg(shape.replace(_MARK, "")), deque(_digits_and_signs(shape)))
-    except Exception:  # a formula that cannot be set is shown as text: no formula is worth a window
-        return None
+    with _one_at_a_time:
+        try:
+            return _parsed(_svg(shape.replace(_MARK, "")), deque(_digits_and_signs(shape)))
+        except Exception:  # a formula that cannot be set is shown as text: no formula is worth a window
+            return None
+        finally:
+            _seen.add(shape)
 
 
 def _svg(latex: str) -> ElementTree.Element:

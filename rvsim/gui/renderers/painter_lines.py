@@ -35,6 +35,7 @@ _SHORT, _MANY = 25, 200  # points
 _AXIS_WIDTH = 2.2
 _FAR = 20_000.0  # [pixels] a line that is longer runs far out of the picture
 _FEW_DOTS = 200  # with more in one item they are a cloud
+_AT_ONCE = 8  # lines: a picture may be painted in a thread, and Python has others run between two calls only
 
 
 def polyline_strokes(seen: Seen[Polyline], lens: Lens, solids: SolidPicture | None) -> list[Stroke]:
@@ -186,7 +187,8 @@ def segments_strokes(seen: Seen[Segments], lens: Lens, smooth: bool = True) -> l
     def draw(painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, not rough)
         painter.setPen(pen(color, width))
-        painter.drawLines(lines)
+        for start in range(0, len(lines), _AT_ONCE):
+            painter.drawLines(lines[start : start + _AT_ONCE])
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
     return [Stroke(float(np.nanmax(seen.eye[:, 2])), draw)]

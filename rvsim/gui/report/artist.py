@@ -54,13 +54,19 @@ class PageArtist:
 
     def picture(self, picture: ScenePicture) -> str:
         """A PNG as a data URI."""
-        return f"data:image/png;base64,{b64encode(png(painted(picture))).decode()}"
+        return f"data:image/png;base64,{b64encode(painted_png(picture)).decode()}"
 
 
 @lru_cache(maxsize=8)
 def painted(picture: ScenePicture) -> QImage:
     """The picture, as fine as paper wants it; the page and the sheets of a report share it."""
     return scene_image(picture.scene, picture.camera, picture.width, picture.height, _SHARPER)
+
+
+@lru_cache(maxsize=8)
+def painted_png(picture: ScenePicture) -> bytes:
+    """The same as the bytes of a PNG file; this may be done in a thread."""
+    return png(painted(picture))
 
 
 def png(image: QImage) -> bytes:

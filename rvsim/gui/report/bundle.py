@@ -6,23 +6,25 @@ import os
 import shutil
 import tempfile
 from collections.abc import Callable, Generator, Iterator
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from rvsim.errors import FileWriteError
 from rvsim.gui.animation import Animation, AnimationSettings, Picturing, save_animation
-from rvsim.gui.report.artist import PageArtist
+from rvsim.gui.formula import pieces
+from rvsim.gui.report.artist import PageArtist, painted_png
 from rvsim.gui.report.pdf import Sheets, write_pdf
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.motion_table import motion_csv
 from rvsim.lab.recording_table import recording_csv
 from rvsim.lab.report import Cover, Study, build
 from rvsim.lab.report.html import html_parts
-from rvsim.lab.report.values import Document
+from rvsim.lab.report.values import Block, Document, Figure, Formula, Formulas, ScenePicture
 from rvsim.lab.script import motion_script, tracking_script
 from rvsim.lab.tables import tracking_csv
 from rvsim.language import tr
@@ -30,6 +32,8 @@ from rvsim.scene import Camera
 from rvsim.scene.build import SceneOptions, scene_bounds
 from rvsim.scene.palette import LIGHT
 from rvsim.scene.paths import path_items
+
+Found = TypeVar("Found")
 
 _TRAIL = 600  # places
 _SETTINGS = AnimationSettings(640, 400, 12)
@@ -72,8 +76,7 @@ def write_bundle(study: Study, order: Order) -> Iterator[Progress]:
     draft = _draft_beside(order.folder)
     try:
         yield from _filled(study, order, draft)
-        yield Progress(0.99, tr("Putting the folder in its place"))
-        _put_in_place(draft, order)
+        yield from _beside(lambda: _put_in_place(draft, order), Progress(0.99, tr("Putting the folder in its place")))
     except OSError as problem:
         if isinstance(problem, FileWriteError):
             raise
@@ -127,20 +130,21 @@ def free_folder(parent: Path, name: str) -> Path:
 
 
 def _filled(study: Study, order: Order, draft: Path) -> Iterator[Progress]:
-    files = _files(study, order)
+    files = yield from _beside(lambda: _files(study, order), Progress(0.0, tr("Working the report out")))
     words = {name: file.what for name, file in files.items()}
     animated = order.animation and study.motion is not None
     if animated:
         words["animation.gif"] = tr("the motion as a moving picture")
     begin = 0.0
     for name, file in files.items():
-        yield Progress(begin, tr("Writing {name}", name=name))
-        (draft / name).write_bytes(file.make())
+        data = yield from _beside(file.make, Progress(begin, tr("Writing {name}", name=name)))
+        (draft / name).write_bytes(data)
     if animated:
         yield from _scaled(_animation(study, draft / "animation.gif"), 0.02, 0.45)
         begin = 0.45
-    yield Progress(begin, tr("Working the report out"))
-    document = build(study, order.cover, order.parts, words)
+    document = yield from _beside(
+        lambda: build(study, order.cover, order.parts, words), Progress(begin, tr("Working the report out"))
+    )
     yield from _scaled(_page(document, draft / "report.html"), begin, begin + 0.35 * (1.0 - begin))
     yield from _scaled(_paper(document, draft / "report.pdf"), begin + 0.35 * (1.0 - begin), 0.98)
 
@@ -184,12 +188,26 @@ def _script(study: Study) -> bytes:
 
 
 def _page(document: Document, file: Path) -> Iterator[Progress]:
-    parts, total = [], sum(1 for _ in document.blocks()) + 2 * len(document.sections) + 3
-    yield Progress(0.0, tr("Drawing the page"))
+    blocks = tuple(document.blocks())
+    for number, block in enumerate(blocks):
+        yield from _ready(block, Progress(0.8 * number / len(blocks), tr("Drawing the page")))
+    parts, total = [], len(blocks) + 2 * len(document.sections) + 3
     for number, part in enumerate(html_parts(document, PageArtist())):
         parts.append(part)
-        yield Progress(number / total, tr("Drawing the page"))
+        yield Progress(0.8 + 0.2 * number / total, tr("Drawing the page"))
     file.write_text("".join(parts), encoding="utf-8")
+
+
+def _ready(block: Block, progress: Progress) -> Iterator[Progress]:
+    """Formulas are set and pictures painted in a thread; both are remembered until they are drawn."""
+    if isinstance(block, Formula | Formulas):
+        yield from _beside(lambda: [pieces(latex) for latex in block.parts], progress)
+    elif isinstance(block, Figure):
+        for picture in block.pictures:
+            if isinstance(picture, ScenePicture):
+                yield from _beside(partial(painted_png, picture), progress)
+    else:
+        yield progress
 
 
 def _paper(document: Document, file: Path) -> Iterator[Progress]:
@@ -219,13 +237,21 @@ def _animation(study: Study, file: Path) -> Iterator[Progress]:
 
 def _encoded(animation: Animation) -> Generator[Progress, None, bytes]:
     """A thread writes it, for that takes seconds at once."""
-    with ThreadPoolExecutor(1, "rvsim-animation") as pool:
-        job = pool.submit(animation.encode, ".gif")
+    progress = Progress(0.95, tr("Writing the animation"))
+    return (yield from _beside(lambda: animation.encode(".gif"), progress, animation.give_up))
+
+
+def _beside(
+    work: Callable[[], Found], progress: Progress, at_the_end: Callable[[], None] = lambda: None
+) -> Generator[Progress, None, Found]:
+    """Work that a thread does while the window goes on."""
+    with ThreadPoolExecutor(1, "rvsim-report") as pool:
+        job: Future[Found] = pool.submit(work)
         try:
             while wait([job], _MOMENT).not_done:
-                yield Progress(0.95, tr("Writing the animation"))
+                yield progress
         finally:
-            animation.give_up()
+            at_the_end()
         return job.result()
 
 
