@@ -111,7 +111,7 @@ def _words(leftover: Leftover) -> str:
         arm = load_session(leftover.file).state.experiment.robot.title
     except RvsimError:
         arm = tr(_UNREADABLE)
-    return f"{name}\n{arm}, {left_to_right(when)}"
+    return f"{name}\n{tr('{arm}, {when}', arm=arm, when=left_to_right(when))}"
 
 
 def _date(seconds: float) -> str:
