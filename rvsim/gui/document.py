@@ -175,6 +175,12 @@ class Document(QObject):
         buttons = QMessageBox.StandardButton
         box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
         box.setDefaultButton(buttons.Save)
+        for each, text in (
+            (buttons.Save, tr("Save")),
+            (buttons.Discard, tr("Discard")),
+            (buttons.Cancel, tr("Cancel")),
+        ):
+            box.button(each).setText(text)
         set_role(box.button(buttons.Save), primary=True)
         box.setEscapeButton(buttons.Cancel)
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

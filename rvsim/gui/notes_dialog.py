@@ -37,6 +37,7 @@ class NotesDialog(QDialog):
         self.text.left_out.connect(self._tell_limit)
         self.text.textChanged.connect(lambda: self._write(tr("Write notes"), "text"))
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons.button(QDialogButtonBox.StandardButton.Close).setText(tr("Close"))
         buttons.rejected.connect(self.close)
         rows = form()
         rows.addRow(tr("Your name"), self.student)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import cast
 
 import numpy as np
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHBoxLayout,
@@ -24,6 +25,7 @@ from rvsim.gui.panels.copying import CopyButton
 from rvsim.gui.panels.dh_cells import cell_kind, cell_title, cell_value, edit_title
 from rvsim.gui.panels.dh_editor import CellDelegate
 from rvsim.gui.panels.dh_model import COLUMNS, DH_COLUMNS, LIMIT_COLUMNS, DHModel, column_of_key
+from rvsim.gui.panels.folding_row import WrappedRow
 from rvsim.gui.panels.shown import NUMBER_SETTINGS, ReadOutPanel
 from rvsim.gui.panels.tables import fit_height, plain_table
 from rvsim.gui.panels.user_robot import ask_what_to_open, ask_where_to_save, is_own, opened, own_copy, saved
@@ -82,6 +84,8 @@ class DHTablePanel(ReadOutPanel):
 
     def _table(self, name: str, title: str, columns: Iterable[str]) -> QTableView:
         table = plain_table(name, title, self.model)
+        table.setWordWrap(False)
+        table.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # joints of a wrist begin alike
         wanted = [column_of_key(key) for key in columns]
         for column in range(len(COLUMNS)):
             table.setColumnHidden(column, column not in wanted)
@@ -118,10 +122,6 @@ class DHTablePanel(ReadOutPanel):
         head = QHBoxLayout()
         head.addWidget(self.title, 1)
         head.addWidget(self.copy)
-        files = QHBoxLayout()
-        files.setSpacing(8)
-        files.addWidget(self.save)
-        files.addWidget(self.open)
         inside = QWidget()
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
@@ -129,7 +129,7 @@ class DHTablePanel(ReadOutPanel):
         column.addLayout(head)
         for widget in (self.convention, self.rows, self.limits, self.legend, self.message):
             column.addWidget(widget)
-        column.addLayout(files)
+        column.addWidget(WrappedRow((self.save, self.open), 8))
         column.addWidget(self.back)
         column.addStretch(1)
         column_of(self, scrolled(inside))

@@ -39,7 +39,7 @@ class RateRows(QWidget):
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setHorizontalSpacing(8)
         self._grid.setVerticalSpacing(3)
-        for column, share in enumerate((0, 3, 4, 4)):
+        for column, share in enumerate((0, 4, 4, 4)):
             self._grid.setColumnStretch(column, share)
 
     def show_robot(self, robot: Robot) -> None:

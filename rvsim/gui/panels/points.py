@@ -132,6 +132,8 @@ class PointsPanel(ReadOutPanel):
         self.setObjectName("points_panel")
         self.model = PointsModel(session.robot, preferences, self)
         self.table = plain_table("points_table", tr("Points of the arm"), self.model)
+        self.table.setWordWrap(False)
+        self.table.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # joints of a wrist begin alike
         self.note = QLabel()
         formats = {tr_later("text"): self._as_text, "NumPy": self._as_numpy, "LaTeX": self._as_latex}
         self.copy = CopyButton("points_copy", tr("the point table"), formats, session)
