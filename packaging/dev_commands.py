@@ -161,8 +161,8 @@ COMMANDS: dict[str, Callable[[list[str]], int]] = {
     "bench": bench,
     "soak": soak,
     "bundle": bundle,
-    "wheel": wheel,
     "texts": texts,
+    "wheel": wheel,
 }
 
 
