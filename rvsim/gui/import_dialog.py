@@ -133,6 +133,7 @@ class ImportDialog(QDialog):
 
     def _lay_out(self) -> None:
         self.preview = QTableWidget()
+        self.preview.horizontalHeader().setMinimumSectionSize(24)  # Qt's own is the widest letter of the font
         self.preview.setObjectName("import_preview")
         self.preview.setAccessibleName(tr("First rows of the file"))
         self.preview.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
