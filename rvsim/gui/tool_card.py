@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from PySide6.QtCore import QRect, QSize, Qt, QTimer
+from PySide6.QtCore import QEvent, QObject, QRect, QSize, Qt, QTimer
 from PySide6.QtGui import QFont, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QStyle, QStyleOption, QWidget
 
@@ -44,7 +44,7 @@ class ToolCard(QLabel):
 
     def __init__(self, session: Session, preferences: Preferences, stage: QWidget) -> None:
         super().__init__(stage)
-        self._session, self._preferences = session, preferences
+        self._session, self._preferences, self._stage = session, preferences, stage
         self._rows: tuple[_Row, ...] = ()
         self.setObjectName("tool_card")
         self.setAccessibleName(tr("Tool pose"))
@@ -53,6 +53,7 @@ class ToolCard(QLabel):
         self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # numbers behind their names, in any language
         session.changed.connect(self._on_changed)
         preferences.changed.connect(self._on_preference)
+        stage.installEventFilter(self)
         self.move(_MARGIN, _MARGIN)
         self._show()
 
@@ -70,10 +71,22 @@ class ToolCard(QLabel):
         values = (T[:3, 3], rpy_from_rotation(T[:3, :3]))
         kinds: tuple[Kind, Kind] = (length_kind(robot), "angle")
         self._rows = tuple(self._row(*each) for each in zip(_NAMES, values, kinds, strict=True))
-        wanted = self.sizeHint()
+        self._fit()
+        self.update()
+
+    def _fit(self) -> None:
+        """As large as it wants to be, and smaller in a stage that has no room for it: large letters, a small window."""
+        wanted, room = self.sizeHint(), self._stage.width() - 2 * _MARGIN
+        if wanted.width() > room > 0:
+            wanted = QSize(room, wanted.height() * room // wanted.width())
         if wanted != self.size():
             self.setFixedSize(wanted)
-        self.update()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """The stage has another size."""
+        if event.type() == QEvent.Type.Resize:
+            self._fit()
+        return super().eventFilter(watched, event)
 
     def text(self) -> str:
         """What is read out, for screen readers and for whoever asks."""
@@ -109,6 +122,8 @@ class ToolCard(QLabel):
         painter = QPainter(self)
         painter.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # it takes that of the application by itself
         self.style().drawPrimitive(QStyle.PrimitiveElement.PE_Widget, option, painter, self)
+        scale = self.width() / self.sizeHint().width()
+        painter.scale(scale, scale)
         painter.setLayoutDirection(self.layoutDirection())  # a minus before its number
         painter.setPen(self.palette().windowText().color())
         upright, slanted = QFont(self.font()), QFont(self.font())
@@ -126,4 +141,4 @@ class ToolCard(QLabel):
                 painter.setFont(upright)
                 painter.drawText(QRect(x, y, numbers[i], height), right, number)
                 x += numbers[i] + _GAP
-            painter.drawText(QRect(x, y, self.width() - x, height), left, row.unit)
+            painter.drawText(QRect(x, y, self.width(), height), left, row.unit)
