@@ -22,6 +22,7 @@ class WindowKeeper(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__()
         self.window = window
+        self._leaving: list[MainWindow] = []  # until Qt has destroyed them: rubbish would be taken apart in any order
         self._listen()
 
     def _listen(self) -> None:
@@ -34,7 +35,10 @@ class WindowKeeper(QObject):
     def _switch(self) -> None:
         code = self.window.preferences["language"] or system_language()
         if code != language().code:
-            self.window = _successor(self.window, code)
+            old, self.window = self.window, _successor(self.window, code)
+            self._leaving.append(old)
+            old.destroyed.connect(lambda: QTimer.singleShot(0, self, lambda: self._leaving.remove(old)))
+            old.deleteLater()
             self._listen()
             self.window.session.say(tr("rvsim speaks {language} now.", language=LANGUAGES[code].name))
 
@@ -69,7 +73,6 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     old.document.autosave.close()
     old.end()
     _hide(old)
-    old.deleteLater()
     return new
 
 

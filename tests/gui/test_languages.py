@@ -261,6 +261,7 @@ def test_every_text_of_the_window_goes_through_tr(robot: str, qtbot: QtBot, monk
     marked = LANGUAGES["en"], Catalogue(_Marked(), lambda _: 0)
     monkeypatch.setattr(rvsim.language, "_spoken", marked)
     window = build_window(Preferences(), robot=robot)
+    qtbot.addWidget(window)
     window.show()
     window.tracker.track_line()
     window.motion.pause()
