@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from weakref import WeakKeyDictionary
 
 from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 
@@ -10,7 +11,7 @@ from rvsim.experiment import Experiment
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.session import Session
 from rvsim.language import again
-from rvsim.playback import Player
+from rvsim.playback import Player, moment_of
 from rvsim.playback.player import Playable
 
 _FRAME_MS = 16
@@ -45,6 +46,7 @@ class MotionControl(QObject):
         self._text = ""
         self._motion = 0  # counts what was loaded: all of one motion is one undo step
         self._showing = False
+        self._moments: WeakKeyDictionary[Experiment, float] = WeakKeyDictionary()  # [s] that were shown with them
         self.opening_at: Opening = _open
         self._said_state = self.player.state
         self._clock = QElapsedTimer()
@@ -75,7 +77,7 @@ class MotionControl(QObject):
         if trajectory is not None:
             self.load(trajectory, again(other._text), other.opening_at)
             self.wait_at(time)
-        self._motion = other._motion
+        self._motion, self._moments = other._motion, other._moments
 
     def wait_at(self, time: float) -> None:
         """Hold a moment [s] in which the arm stands already."""
@@ -83,6 +85,18 @@ class MotionControl(QObject):
             self.player.seek(time)
             self.moved.emit(self.player.time)
             self._tell()
+
+    def wait_for(self, experiment: Experiment) -> None:
+        """Hold the moment in which the motion passes its pose, in which the arm stands already.
+
+        Where the motion never passes it, that which was shown with it, or the present one.
+        """
+        if self.player.trajectory is None:
+            return
+        shown = self._moments.get(experiment, self.player.time)
+        time = moment_of(self.player.trajectory, experiment.q, (shown, self.player.time))
+        self._moments[experiment] = shown if time is None else time
+        self.wait_at(self._moments[experiment])
 
     @property
     def opening(self) -> float:
@@ -172,12 +186,18 @@ class MotionControl(QObject):
         """
         if after.robot.name != before.robot.name:
             self.opening_at = _open
+        if self._showing:
+            self._moments[after] = self.player.time
         if self._showing or self.player.trajectory is None:
             return
         if after.robot is not before.robot:
             self.load(None, "")
         elif not _is_beside(before, after):
             self.pause()
+            if not self._session.continuing:
+                self.wait_for(after)
+        else:
+            self._moments[after] = self.player.time
 
     def _on_preference(self, name: str) -> None:
         if name == "speed":

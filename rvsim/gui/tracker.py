@@ -22,11 +22,9 @@ from rvsim.lab.sentences import Units, tracking_sentence
 from rvsim.language import again, tr
 from rvsim.motion import Path, Tracking, Trajectory, track
 from rvsim.robot import Robot
-from rvsim.robot.arrays import FloatArray
 
 _AT_ONCE, _AT_ONCE_FREE = 250, 40  # points that are tracked without a worker
 _REMEMBERED = 8  # results that undo can bring back
-_SAME = 1e-9  # [rad, m] between poses that are one
 
 
 class _Done(NamedTuple):
@@ -38,7 +36,6 @@ class _Done(NamedTuple):
     trajectory: Trajectory | None
     text: str
     began: TrackedFrom
-    time: float = 0.0  # [s] the moment that was shown when it was last in the player
 
     def still_holds(self, experiment: Experiment) -> bool:
         """Whether tracking in that state would give the same, from wherever the arm stands."""
@@ -81,15 +78,6 @@ def _timed_again(done: _Done, experiment: Experiment) -> _Done:
     told = replace(done.experiment, law=experiment.law, path_seconds=experiment.path_seconds, ease=experiment.ease)
     began = replace(done.began, start=experiment.q)
     return done._replace(experiment=told, trajectory=motion_of(done.tracking, experiment), began=began)
-
-
-def _moment_of(done: _Done, now: float, q: FloatArray) -> float:
-    """The moment [s] of its motion in which the arm stands there; where none is known the one that was shown last."""
-    moving = done.trajectory
-    if moving is None:
-        return 0.0
-    moments = (now, done.time, 0.0, moving.duration)
-    return next((time for time in moments if np.allclose(moving.q(time), q, rtol=0.0, atol=_SAME)), now or done.time)
 
 
 def _same_pace(one: Experiment, other: Experiment) -> bool:
@@ -230,7 +218,7 @@ class PathTracker(QObject):
             self.cancel()
         shown = self._done[-1] if self._session.tracking is not None else None
         if shown is not None:
-            self._belonging[before] = shown._replace(time=self._motion.player.time)
+            self._belonging[before] = shown
         known = self._known(after, shown)
         if known is not None:
             self._bring_back(known, shown, after)
@@ -254,7 +242,7 @@ class PathTracker(QObject):
             self._done = [one for one in self._done if one.tracking is not known.tracking]
             self._show(known)
         if self._motion.player.trajectory is known.trajectory and not self._session.continuing:
-            self._motion.wait_at(_moment_of(known, self._motion.player.time, experiment.q))
+            self._motion.wait_for(experiment)
 
     @property
     def trajectory(self) -> Trajectory | None:
@@ -298,7 +286,9 @@ class PathTracker(QObject):
         self._session.say(sentence, "info" if done.tracking.complete else "warning")
         self.tracked.emit(done.kind)
         quiet, self._quiet = self._quiet, False
-        if not quiet:
+        if quiet:
+            self._motion.wait_for(self._session.experiment)
+        else:
             self._motion.play()
 
     def _show(self, done: _Done) -> None:

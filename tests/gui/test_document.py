@@ -121,6 +121,7 @@ def test_a_path_that_was_tracked_is_tracked_again_and_not_played(
 ) -> None:
     window.tracker.track_line()
     window.motion.pause()
+    window.motion.seek(1.5)
     file, second = tmp_path / "first.rvsim", tmp_path / "second.rvsim"
     assert window.document.save_to(file)
     assert own_window.document.open(file)
@@ -128,6 +129,7 @@ def test_a_path_that_was_tracked_is_tracked_again_and_not_played(
     assert own_window.session.tracking is not None
     assert len(own_window.session.tracking.q) == len(window.session.tracking.q)
     assert not own_window.motion.player.playing
+    assert own_window.motion.player.time == pytest.approx(1.5), "where the arm stands"
     assert not own_window.document.dirty
     assert own_window.document.save_to(second)
     assert second.read_bytes() == file.read_bytes()

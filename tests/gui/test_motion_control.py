@@ -105,3 +105,24 @@ def test_scrubbing_to_and_fro_pausing_and_playing_on_are_one_undo_step(session: 
     assert session.undo_stack.count() == 1
     session.undo_stack.undo()
     np.testing.assert_array_equal(session.q, np.zeros(5))
+
+
+def test_undo_and_redo_show_the_moment_of_the_pose_that_they_lead_to(session: Session, motion: MotionControl) -> None:
+    times = []
+    for time in (0.11, 0.33, 0.52):
+        motion.seek(time)
+        times.append(time)
+        session.undo_stack.setClean()  # it has been saved: what follows is another step
+    for time in reversed(times[:-1]):
+        session.undo_stack.undo()
+        assert motion.player.time == time
+        np.testing.assert_array_equal(motion.player.q, session.q)
+    session.undo_stack.redo()
+    assert motion.player.time == times[1]
+
+
+def test_a_pose_that_comes_from_elsewhere_is_found_in_the_motion(session: Session, motion: MotionControl) -> None:
+    session.move_to(motion.player.trajectory.q(0.4), "Recall the pose")
+    assert motion.player.time == pytest.approx(0.4)
+    session.move_to(np.radians([10.0, 0.0, -5.0, 0.0, 0.0]), "Move waist")
+    assert motion.player.time == pytest.approx(0.4), "the motion never passes that"
