@@ -22,12 +22,13 @@ from rvsim.gui.file_drop import FileDrop
 from rvsim.gui.file_problem import tell_problem
 from rvsim.gui.recent_files import RecentFiles
 from rvsim.gui.theme import set_role
-from rvsim.language import tr, tr_later
+from rvsim.language import sentences, tr, tr_later
 
 if TYPE_CHECKING:
     from rvsim.gui.main_window import MainWindow
 
 _UNTITLED = tr_later("Untitled")
+_RUN_NOT_SAVED = tr_later("The run on the arm is not in it: keep it as CSV on the Measured page, or in a lab report.")
 Then = Callable[[], object]
 
 
@@ -301,8 +302,14 @@ class Document(QObject):
             return False
         self._became(file.absolute())
         self.recent.add(file)
-        self._session.say(tr("Saved {file}.", file=file))
+        said = tr("Saved {file}.", file=file)
+        self._session.say(sentences(said, tr(_RUN_NOT_SAVED)) if self._has_run() else said)
         return True
+
+    def _has_run(self) -> bool:
+        """Whether a motion has run on the arm that is connected: its recording is in no session file."""
+        recording = self._window.device.recording
+        return recording is not None and not recording.empty
 
     def _folder(self) -> Path:
         last = self.path or next(iter(self.recent.files), None)

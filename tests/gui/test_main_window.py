@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from rvsim.gui.action_table import ACTIONS
 from rvsim.gui.actions import shortcut_table
 from rvsim.gui.app import build_window
 from rvsim.gui.commands import SWITCHES
+from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.text_dialog import TextDialog
@@ -269,3 +271,14 @@ def test_what_a_command_does_takes_the_place_of_the_message_for_a_while(window: 
     assert not window.statusBar().currentMessage(), "nothing is written over the message"
     QApplication.sendEvent(window, QStatusTipEvent(""))
     assert (window.message.text(), window.message.property("level")) == ("Not moved.", "warning")
+
+
+def test_saving_after_a_run_on_an_arm_says_that_the_run_is_kept_elsewhere(
+    window: MainWindow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[str] = []
+    window.session.said.connect(lambda text, _level: said.append(text))
+    for empty in (True, False):
+        monkeypatch.setattr(DeviceControl, "recording", SimpleNamespace(empty=empty))
+        assert window.document.save_to(tmp_path / "after.rvsim")
+        assert ("The run on the arm is not in it" in said[-1]) is not empty

@@ -76,6 +76,10 @@ _TIPS = {
     "measured": tr_later("Between what was wanted and what came back, at the same moments"),
     "true": _TRUE_TIP,
 }
+_NOT_SAVED = tr_later(
+    "A saved session does not hold this run. To keep it, save it as CSV here, or make a lab report while the arm is "
+    "connected."
+)
 _Role = Qt.ItemDataRole
 
 
@@ -115,6 +119,9 @@ class MeasuredPage(InspectPage):
             tr("Times, and joints and tool: wanted, sent, come back"),
             self._on_save,
         )
+        self.keeping = wrapped_label("muted")
+        self.keeping.setObjectName("measured_keeping")
+        self.keeping.setText(tr(_NOT_SAVED))
         self._lay_out()
         for plot in (self.curves, self.errors):
             plot.picked.connect(device.motion.seek)
@@ -126,7 +133,16 @@ class MeasuredPage(InspectPage):
         column = QVBoxLayout(inside)
         column.setContentsMargins(12, 8, 12, 12)
         column.setSpacing(8)
-        self._parts = (self.summary, self.what, self.legend, self.curves, self.errors, self.table, self.save)
+        self._parts = (
+            self.summary,
+            self.what,
+            self.legend,
+            self.curves,
+            self.errors,
+            self.table,
+            self.keeping,
+            self.save,
+        )
         for widget in (self.about, *self._parts):
             column.addWidget(widget)
         column.addStretch(1)

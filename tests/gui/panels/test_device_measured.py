@@ -73,6 +73,7 @@ def test_reported_pulses_are_called_so_and_the_truth_of_the_virtual_arm_is_told(
     assert "that is no measurement" in page.summary.text()
     assert "Really the virtual arm’s tool" in page.summary.text()
     assert "stopped" not in page.summary.text()
+    assert "A saved session does not hold this run" in page.keeping.text()
     heads = [page.model.headerData(i, Qt.Orientation.Horizontal) for i in range(page.model.columnCount())]
     assert heads == ["Deviation, RMS", "Sent", "Reported", "Really"]
     assert "measured" not in page.legend.text()
