@@ -52,12 +52,11 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     view, port, tracking = view_of(old), port_section(old).settings, old.session.tracking
     geometry, layout = old.window_layout()
     mirrored = LANGUAGES[code].right_to_left != language().right_to_left
-    old.preferences.renew()
     wear_language(app, code)
-    old.session.renew()  # which says the names of the undo steps again
-    prepare_theme(old.preferences)
-    new = MainWindow(old.session, old.preferences, old.library, old.choice)
-    wear_theme(old.preferences)
+    preferences = old.preferences.successor()
+    prepare_theme(preferences)
+    new = MainWindow(old.session.successor(), preferences, old.library, old.choice)
+    wear_theme(preferences)
     new.dress_narrowest()
     new.lay_out(geometry, QByteArray() if mirrored else layout)
     port_section(new).show_settings(port)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from PySide6.QtCore import QByteArray, QMetaMethod, QObject, QSettings, Signal, SignalInstance
+from PySide6.QtCore import QByteArray, QObject, QSettings, Signal
 
 from rvsim.language import LANGUAGES
 
@@ -47,13 +47,6 @@ SETTINGS: dict[str, Setting] = {
 }
 
 
-def forget_listeners(sender: QObject, *signals: SignalInstance) -> None:
-    """Tell nobody any more who has asked to be told by these signals of `sender`."""
-    for signal in signals:
-        if sender.isSignalConnected(QMetaMethod.fromSignal(signal)):
-            signal.disconnect()
-
-
 class Preferences(QObject):
     """The settings in force; `changed(name)` tells when one of them gets another value."""
 
@@ -79,9 +72,11 @@ class Preferences(QObject):
             self._store.setValue(f"preferences/{name}", value)
         self.changed.emit(name)
 
-    def renew(self) -> None:
-        """Another window takes the place of the one that listened: nothing tells the old one any more."""
-        forget_listeners(self, self.changed)
+    def successor(self) -> Preferences:
+        """The same for the window that takes the place of the one that listens to this; kept in the same file."""
+        new = Preferences()
+        new._store, new._values = self._store, dict(self._values)
+        return new
 
     def window_state(self, key: str) -> QByteArray:
         """What `keep_window_state` kept under that key, or nothing."""

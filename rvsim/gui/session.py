@@ -12,7 +12,6 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from rvsim.experiment import Experiment, LimitViolation, limit_violations
-from rvsim.gui.preferences import forget_listeners
 from rvsim.gui.servo_limits import ServoLimits
 from rvsim.language import again, tr
 from rvsim.motion import Tracking
@@ -28,6 +27,10 @@ class _Change(QUndoCommand):
         self.name = text
         self._session, self.merge, self.follows = session, merge, follows  # `follows`: the key of the change before it
         self._before, self._after = session.experiment, after
+
+    def belong_to(self, session: Session) -> None:
+        """From now on lead another session to its states."""
+        self._session = session
 
     def continues(self, merge: str) -> bool:
         """Whether a change with that key goes on with this one."""
@@ -165,16 +168,24 @@ class Session(QObject):
         last = stack.command(stack.index() - 1) if open_ended else None
         return last if isinstance(last, _Change) else None
 
-    def renew(self) -> None:
-        """Another window takes the place of the one that this belonged to: nothing tells the old one any more."""
-        stack = self.undo_stack
-        forget_listeners(self, self.changed, self.settled, self.tracking_changed, self.said)
-        forget_listeners(stack, stack.cleanChanged, stack.indexChanged, stack.undoTextChanged, stack.redoTextChanged)
-        for command in map(stack.command, range(stack.count())):
-            named = command.child(0) if command.childCount() else command
-            if isinstance(named, _Change | _Name):
-                command.setText(again(named.name))
-        self._tracking = None
+    def successor(self) -> Session:
+        """The same for the window that takes the place of this one's, with the undo steps said in its language.
+
+        Whoever listens to this one hears no more, and goes with its window.
+        """
+        new = Session(self._experiment, self._make_experiment)
+        new._left, new.servo_limits = self._left, self.servo_limits
+        new.undo_stack, self.undo_stack = self.undo_stack, new.undo_stack
+        new.undo_stack.setParent(new)
+        self.undo_stack.setParent(self)
+        for command in map(new.undo_stack.command, range(new.undo_stack.count())):
+            parts = [command, *map(command.child, range(command.childCount()))]
+            name = next((part.name for part in reversed(parts[:2]) if isinstance(part, _Change | _Name)), "")
+            command.setText(again(name) or command.text())
+            for change in parts:
+                if isinstance(change, _Change):
+                    change.belong_to(new)
+        return new
 
     def end_stroke(self) -> None:
         """A slider has been released, a box left: the next edit is a new one."""

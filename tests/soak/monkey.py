@@ -20,6 +20,7 @@ from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication, QMessageBox, QWidget
 
 from rvsim.gui.app import build_window
+from rvsim.gui.collector import RubbishCollector
 from rvsim.gui.language_switch import WindowKeeper
 from rvsim.gui.languages import wear_language
 from rvsim.gui.main_window import MainWindow
@@ -209,6 +210,7 @@ class Life:
 
     def die(self) -> None:
         began = time.perf_counter()
+        collector = RubbishCollector()  # or the thread of the watch collects parts of the window while it goes
         self.world.fill_disk(False)
         self._start_something()
         self._close()
@@ -225,6 +227,7 @@ class Life:
         assert isinstance(app, QApplication)
         wear_language(app, self._language)
         self._await_threads(began)
+        collector.end()
 
     def _close(self) -> None:
         """As somebody does it who does not want to save."""
