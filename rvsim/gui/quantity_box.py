@@ -13,6 +13,7 @@ from rvsim.expressions import evaluate_in
 from rvsim.gui.calm_boxes import needs_focus
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number, without_unit
+from rvsim.gui.refusal import end_refusal, show_refusal
 from rvsim.language import left_to_right, tr
 
 _LONGEST = 400  # characters: more than any number or pose; ten million that are pasted must not be laid out
@@ -47,6 +48,8 @@ class QuantityBox(QDoubleSpinBox):
         self.lineEdit().setMaxLength(_LONGEST)
         self._show()
         self.valueChanged.connect(self._take)
+        self.refused.connect(self._show_refusal)
+        self.lineEdit().textEdited.connect(self._end_refusal)
         preferences.changed.connect(self._on_preference)
 
     # --- SI side ---------------------------------------------------------------------------------------------------
@@ -66,6 +69,7 @@ class QuantityBox(QDoubleSpinBox):
         if quantity == self._quantity:
             return
         self._quantity = quantity
+        self._end_refusal()
         self._show()
 
     def set_range(self, lower: float, upper: float, hint: str = "") -> None:
@@ -110,7 +114,14 @@ class QuantityBox(QDoubleSpinBox):
         if not self.lineEdit().isModified():
             self._show()
 
+    def _show_refusal(self, sentence: str) -> None:
+        show_refusal(self, sentence)
+
+    def _end_refusal(self, _text: str = "") -> None:
+        end_refusal(self)
+
     def _take(self, value: float) -> None:
+        self._end_refusal()
         self._quantity = value / display(self._kind, self._preferences).factor
         self._show()
         self.quantity_changed.emit(self._quantity)

@@ -111,6 +111,9 @@ QAbstractSpinBox, QLineEdit, QComboBox {{
 QAbstractSpinBox:focus, QLineEdit:focus, QComboBox:focus {{ border-color: {accent}; }}
 QAbstractSpinBox:read-only {{ background: {window}; }}
 QAbstractSpinBox[outside="true"] {{ border: 2px dashed {error}; }}
+QAbstractSpinBox[refused="true"] {{ border: 2px solid {error}; }}
+QLabel#refusal_bubble {{ background: {raised}; color: {text}; border: 1px solid {error}; border-radius: 5px;
+    padding: 6px; }}
 QAbstractSpinBox::up-button, QAbstractSpinBox::down-button {{ width: 0; border: none; }}
 QComboBox::drop-down {{ border: none; width: 22px; }}
 QComboBox::down-arrow {{ image: url({arrow}); width: 10px; height: 10px; }}

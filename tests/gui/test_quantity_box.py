@@ -5,6 +5,7 @@ import math
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QGuiApplication, QWheelEvent
+from PySide6.QtWidgets import QLabel
 
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantity_box import QuantityBox
@@ -384,3 +385,19 @@ def test_a_narrow_box_gives_up_the_unit_before_the_sign(qtbot):
     assert box.quantity == pytest.approx(0.12)
     box.resize(160, 30)
     assert box.text() == "120.0 mm"
+
+
+@pytest.mark.parametrize("typed", ["999", "abc"])
+def test_what_is_refused_is_said_at_the_box_until_something_else_is_typed(box, qtbot, typed):
+    heard = Heard(box)
+    enter(box, qtbot, typed)
+    assert box.property("refused") is True
+    bubble = box.findChild(QLabel, "refusal_bubble")
+    assert bubble.isVisible()
+    assert bubble.text() == heard.refusals[-1]
+    qtbot.keyClicks(box, "-3")
+    assert box.property("refused") is False
+    assert not bubble.isVisible()
+    enter(box, qtbot, "abc")
+    box.set_quantity(-1.0)
+    assert box.property("refused") is False, "another value, from elsewhere"
