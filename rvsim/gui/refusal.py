@@ -17,6 +17,7 @@ def show_refusal(box: QWidget, sentence: str) -> None:
         set_role(box, refused=True)
         bubble = _bubble(box.window())
         bubble.setText(sentence)
+        bubble.ensurePolished()  # its padding counts
         bubble.resize(_WIDTH, bubble.heightForWidth(_WIDTH))
         bubble.move(_place(box, bubble))
         bubble.show()

@@ -31,6 +31,12 @@ _FREE = tr_later(
     "What is wanted is the place alone: the orientation is free, and the tool takes whichever comes of it."
 )
 _PASTE_PLACE = tr_later("Three numbers can be pasted or typed into any of the boxes.")
+_NEAREST = {  # by whether the orientation counts, and the limits: the sentence above tells of the place alone
+    (True, True): tr_later("Nearest pose (with the orientation and the limits): {place} away, turned by {turn}."),
+    (True, False): tr_later("Nearest pose (with the orientation): {place} away, turned by {turn}."),
+    (False, True): tr_later("Nearest (within the limits): {place} away, turned by {turn}."),
+    (False, False): tr_later("Nearest: {place} away, turned by {turn}."),
+}
 _SOUGHT = {False: tr_later("Looking for the nearest pose…"), True: tr_later("The nearest pose is looked for at rest.")}
 _UNITS = ("angle_unit", "length_unit", "extra_decimals")
 
@@ -163,12 +169,13 @@ class WhyNot(QFrame):
         self.accept.setVisible(answer.missed)
         self.accept.setEnabled(nearest is not None)
         self.left.setVisible(answer.missed)
-        self.left.setText(tr(_SOUGHT[answer.hurried]) if nearest is None else self._left(nearest))
+        self.left.setText(tr(_SOUGHT[answer.hurried]) if nearest is None else self._left(answer, nearest))
 
-    def _left(self, nearest: NearestPose) -> str:
+    def _left(self, answer: Answer, nearest: NearestPose) -> str:
         place = format_quantity(nearest.position_error, length_kind(self._control.session.robot), self._preferences)
         turn = format_quantity(nearest.rotation_error, "angle", self._preferences)
-        return tr("Nearest: {place} away, turned by {turn}.", place=place, turn=turn)
+        counts = not answer.question.place_only, not answer.question.ignore_limits
+        return tr(_NEAREST[counts], place=place, turn=turn)
 
 
 class InversePanel(QWidget):

@@ -344,7 +344,7 @@ def test_a_hand_beyond_the_reach_is_told_what_the_arm_does_and_the_nearest_at_re
     )
     qtbot.waitUntil(lambda: panel.control.nearest is not None)
     assert why.text().startswith("The place is out of reach")
-    assert left.text().startswith("Nearest:")
+    assert left.text().startswith("Nearest pose (with the orientation and the limits):")
 
 
 @pytest.mark.parametrize("points", [9, 14])
