@@ -127,6 +127,8 @@ class QuantityBox(QDoubleSpinBox):
         self.quantity_changed.emit(self._quantity)
 
     def _on_preference(self, name: str) -> None:
+        if name == "language" and self.lineEdit().isModified():
+            self.interpretText()  # another window is about to take the place of this one
         if name in ("angle_unit", "length_unit", "extra_decimals"):
             self._show()
 

@@ -33,6 +33,7 @@ from rvsim.gui.language_switch import WindowKeeper
 from rvsim.gui.languages import wear_language
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.panels.device_calibrate import CalibratePage
+from rvsim.gui.panels.joint_box import JointBox
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.tour import Tour, begin_tour
@@ -89,6 +90,15 @@ def test_a_switch_keeps_session_undo_file_motion_and_view(keeper: WindowKeeper, 
     for _ in range(steps):
         window.actions_by_name["redo"].trigger()
     assert np.array_equal(window.session.q, q)
+
+
+def test_a_value_that_is_being_typed_is_taken_before_the_switch(keeper: WindowKeeper, qtbot: QtBot) -> None:
+    box = keeper.window.findChild(JointBox, "joint_value_1")
+    box.selectAll()
+    qtbot.keyClicks(box, "25")
+    window = switched(keeper, qtbot, "de")
+    assert np.degrees(window.session.q[0]) == pytest.approx(25.0)
+    assert window.session.undo_stack.count() == 1
 
 
 def test_what_was_tracked_stays_the_same_thing_and_its_motion_one_step(keeper: WindowKeeper, qtbot: QtBot) -> None:
