@@ -110,6 +110,7 @@ _WORDS = {
     "sin": "sin ", "times": " × ", "arccos": "arccos ", "quad": "  ", "pi": "π", "sigma": "σ", "zeta": "ζ",
     "omega": "ω", "tau": "τ", "Delta": "Δ", "leq": " ≤ ", "geq": " ≥ ", "pm": "±", "cdots": " ⋯ ", "ldots": "…",
     "sum": "Σ ", "prod": "Π ", "in": " ∈ ", "Rightarrow": " ⇒ ", "rightarrow": " → ", ";": " ",
+    "vee": "∨ ", "wedge": "∧ ",
 }  # fmt: skip
 _ACCENTS = {"dot": "\u0307", "ddot": "\u0308", "hat": "\u0302"}  # combined with the letter before
 

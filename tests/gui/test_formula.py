@@ -90,3 +90,7 @@ def test_a_bracket_reaches_from_the_first_row_to_the_last(qapp, rows):
     points = [bracketed.path.elementAt(i) for i in range(bracketed.path.elementCount())]
     heights = [point.y for point in points if point.x < 5.0]  # the left bracket stands there alone
     assert max(heights) - min(heights) >= bare.path.boundingRect().height() - 0.1
+
+
+def test_logical_signs_are_read_in_any_language() -> None:
+    assert plain_text(r"a = 0 \;\wedge\; b = 0 \;\vee\; c = 0") == "a = 0 ∧ b = 0 ∨ c = 0"

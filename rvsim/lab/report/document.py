@@ -89,11 +89,11 @@ def build(
 
 
 def _summary(study: Study, measures: Measures) -> Section:
-    place = ", ".join(measures.length.text(float(value)) for value in study.T[:3, 3])
+    place = ",\u00a0".join(measures.length.text(float(value)) for value in study.T[:3, 3])
     joints = ", ".join(measures.joint(i).amount(float(value)) for i, value in enumerate(study.q))
     sentences = [
         tr("The {title} stands at q = ({joints}).", title=study.robot.title, joints=joints),
-        tr("Its tool is then at x, y, z = ({place}) {unit}.", place=place, unit=measures.length.unit),
+        tr("Its tool is then at x,\u00a0y,\u00a0z\u00a0= ({place}) {unit}.", place=place, unit=measures.length.unit),
         *_inverse_words(study),
         *_path_words(study, measures),
         *_measured_words(study, measures),

@@ -65,7 +65,7 @@ def path_words(study: Study, path: Path, measures: Measures) -> Iterator[str]:
     """Sentences about it, without its name and the number of its points."""
     if path.name == "line":
         yield tr(
-            "It is straight, from x, y, z = ({start}) to ({end}) {unit}.",
+            "It is straight, from x,\u00a0y,\u00a0z\u00a0= ({start}) to ({end}) {unit}.",
             start=_place(path.points[0], measures),
             end=_place(path.points[-1], measures),
             unit=measures.length.unit,
@@ -109,14 +109,15 @@ def _where(path: Path, measures: Measures) -> Iterator[str]:
     middle = _place(path.middle, measures)
     if np.allclose(start, end, atol=_SAME):
         yield tr(
-            "Its middle is at x, y, z = ({middle}) {unit}; it begins and ends at ({start}) {unit}.",
+            "Its middle is at x,\u00a0y,\u00a0z\u00a0= ({middle}) {unit}; it begins and ends at ({start}) {unit}.",
             middle=middle,
             start=_place(start, measures),
             unit=unit,
         )
         return
     yield tr(
-        "Its middle is at x, y, z = ({middle}) {unit}; it begins at ({start}) {unit} and ends at ({end}) {unit}.",
+        "Its middle is at x,\u00a0y,\u00a0z\u00a0= ({middle}) {unit}; it begins at ({start}) {unit} "
+        "and ends at ({end}) {unit}.",
         middle=middle,
         start=_place(start, measures),
         end=_place(end, measures),
@@ -132,7 +133,7 @@ def _tool(path: Path) -> Iterator[str]:
 
 
 def _place(point: FloatArray, measures: Measures) -> str:
-    return ", ".join(measures.length.text(float(value), 1) for value in point)
+    return ",\u00a0".join(measures.length.text(float(value), 1) for value in point)  # in one line
 
 
 # --- one sentence a shape ------------------------------------------------------------------------------------------
@@ -151,7 +152,9 @@ def _arc(shape: ArcShape, amount: Amount, measures: Measures) -> str:
 
 def _arc_through(shape: ArcThroughShape, _amount: Amount, measures: Measures) -> str:
     return tr(
-        "It is an arc over x, y, z = ({via}) {unit}.", via=_place(shape.points[1], measures), unit=measures.length.unit
+        "It is an arc over x,\u00a0y,\u00a0z\u00a0= ({via}) {unit}.",
+        via=_place(shape.points[1], measures),
+        unit=measures.length.unit,
     )
 
 

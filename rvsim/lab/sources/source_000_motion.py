@@ -310,7 +310,7 @@ _SINGULARITIES = (
         "singularity",
         tr_later("A family of singularities is missing"),
         (r"\sin\theta_3 = 0 \;\wedge\; \cos\theta_4 = 0",),
-        (r"\sin\theta_3 = \cos\theta_4 = 0 \quad\mathrm{or}\quad a_2 c_2 + a_3 c_{23} + d_G s_{234} = 0",),
+        (r"\sin\theta_3 = \cos\theta_4 = 0 \;\vee\; a_2 c_2 + a_3 c_{23} + d_G s_{234} = 0",),
         tr_later(
             "With the tip on the base axis the waist does not move it; that is reachable within the limits. Shown: "
             "the rank of the position part Ĵ."

@@ -130,7 +130,7 @@ def test_a_line_is_described_by_its_ends_and_the_summary_tells_the_deviation_bet
     start, end = (1e3 * study.tracking.path.points[row] for row in (0, -1))
     document = build(study, COVER)
     for point in (start, end):
-        assert ", ".join(f"{value:.1f}" for value in point).replace("-", "−") in words(document, "The path")
+        assert ",\u00a0".join(f"{value:.1f}" for value in point).replace("-", "−") in words(document, "The path")
     between = str(table(document, "in numbers").rows[-1][1])
     assert f"at most {between} " in words(document, "Summary")
 
