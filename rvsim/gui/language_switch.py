@@ -11,6 +11,10 @@ from rvsim.gui.main_window import MainWindow
 from rvsim.gui.theme import prepare_theme, wear_theme
 from rvsim.language import LANGUAGES, language, tr
 
+# Windows in languages that are spoken no more, hidden and at rest. To destroy one, with its thousands of parts that
+# Python knows, has ended the program now and then (Qt for Python 6.11); nobody changes the language often.
+PARKED: list[MainWindow] = []
+
 
 class WindowKeeper(QObject):
     """Keeps the one window of the application. When the preferences ask for another language, it makes another.
@@ -22,7 +26,6 @@ class WindowKeeper(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__()
         self.window = window
-        self._leaving: list[MainWindow] = []  # until Qt has destroyed them: rubbish would be taken apart in any order
         self._listen()
 
     def _listen(self) -> None:
@@ -36,9 +39,7 @@ class WindowKeeper(QObject):
         code = self.window.preferences["language"] or system_language()
         if code != language().code:
             old, self.window = self.window, _successor(self.window, code)
-            self._leaving.append(old)
-            old.destroyed.connect(lambda: QTimer.singleShot(0, self, lambda: self._leaving.remove(old)))
-            old.deleteLater()
+            PARKED.append(old)
             self._listen()
             self.window.session.say(tr("rvsim speaks {language} now.", language=LANGUAGES[code].name))
 

@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from PySide6.QtWidgets import QApplication
 
+from rvsim.language import LANGUAGES
+
 SOAK = Path(__file__).parents[1] / "soak"
 
 
@@ -18,6 +20,8 @@ def test_whatever_is_done_to_the_window_it_lives_on(
 ) -> None:
     monkeypatch.syspath_prepend(str(SOAK))
     monkey, watching, around = (importlib.import_module(f"monkey{part}") for part in ("", "_watch", "_world"))
+    choices = importlib.import_module("monkey_choices")  # a change of the language would leave a window in this process
+    monkeypatch.setattr(choices, "FORBIDDEN", ("action_quit", *(f"action_language_{code}" for code in LANGUAGES)))
     quits = qapp.quitOnLastWindowClosed()
     qapp.setQuitOnLastWindowClosed(False)
     with around.temporary_world(hard=False) as world, watching.Watch(slowness=False) as watch:

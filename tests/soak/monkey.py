@@ -21,7 +21,7 @@ from PySide6.QtWidgets import QApplication, QMessageBox, QWidget
 
 from rvsim.gui.app import build_window
 from rvsim.gui.collector import RubbishCollector
-from rvsim.gui.language_switch import WindowKeeper
+from rvsim.gui.language_switch import PARKED, WindowKeeper
 from rvsim.gui.languages import wear_language
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
@@ -219,8 +219,9 @@ class Life:
         QCoreApplication.processEvents()
         self.window.deleteLater()
         for widget in QApplication.topLevelWidgets():
-            widget.close()
-            widget.deleteLater()
+            if widget not in PARKED:
+                widget.close()
+                widget.deleteLater()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
         QCoreApplication.processEvents()
         app = QApplication.instance()
