@@ -57,8 +57,9 @@ def keep_whole(table: QTableView, columns: Iterable[int], longest: str) -> None:
     columns, header = tuple(columns), table.horizontalHeader()
 
     def fit() -> None:
-        for column in columns:
-            head = str(table.model().headerData(column, Qt.Orientation.Horizontal))
+        model = table.model()
+        for column in columns if model is not None else ():  # while its window goes it has none
+            head = str(model.headerData(column, Qt.Orientation.Horizontal))
             widest = max(table.fontMetrics().horizontalAdvance(text) for text in (head, longest))
             header.resizeSection(column, widest + _HEAD_PADDING)
 
