@@ -189,7 +189,7 @@ def test_undo_brings_back_the_motion_of_what_was_edited_at_the_moment_that_was_s
         assert player.trajectory is None
         session.undo_stack.undo()
         assert session.tracking is circle
-        assert player.time == time
+        assert player.time == pytest.approx(time, abs=1e-12)
         np.testing.assert_allclose(player.q, session.q, atol=1e-12)
 
 
@@ -209,7 +209,7 @@ def test_undo_and_redo_show_the_motion_that_belonged_to_each_state(panel: PathPa
         stack.setIndex(index)
         assert session.tracking is tracking
         assert player.trajectory is trajectory
-        assert player.time == time
+        assert player.time == pytest.approx(time, abs=1e-12)
         np.testing.assert_allclose(player.q, session.q, atol=1e-12)
 
 
