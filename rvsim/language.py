@@ -36,6 +36,8 @@ LANGUAGES = {
 _ISOLATE, _ISOLATE_LEFT_TO_RIGHT, _ISOLATE_RIGHT_TO_LEFT, _END = "\u2068", "\u2066", "\u2067", "\u2069"
 # What a text begins with to be laid out from right to left, though its first letter is a Latin one or a value's.
 _RIGHT_TO_LEFT_MARK = "\u200f"
+_SIGN_MARK = "\u200e"  # stands before the sign of a number among words from right to left
+_SIGN = re.compile(r"(?<![\w.\u200e])(?=[-+\u2212\xb1][.\d])")
 _FIELD = re.compile(r"\{[^{}]*\}")
 _STRIPPED = str.maketrans(
     "", "", _ISOLATE + _ISOLATE_LEFT_TO_RIGHT + _ISOLATE_RIGHT_TO_LEFT + _END + _RIGHT_TO_LEFT_MARK
@@ -161,11 +163,12 @@ def _said(text: str, many: str, number: int, values: Mapping[str, object]) -> Te
 def _from_the_right(template: str, translated: bool) -> str:
     """A template of a language that is written from right to left: widgets lay a text out as its first letter is.
 
-    English that nobody has translated stays as it is, and so do names alone.
+    That may be the first of a value, isolated as it is. English that nobody has translated stays as it is, and so do
+    names alone.
     """
     words = _FIELD.sub("", template)
     first = next((kind for kind in map(unicodedata.bidirectional, words) if kind in ("L", "R", "AL")), "")
-    if first in ("R", "AL") or (first and not translated):
+    if (first in ("R", "AL") and not template.startswith("{")) or (first == "L" and not translated):
         return template
     return _RIGHT_TO_LEFT_MARK + template if words != template or has_right_to_left(words) else template
 
@@ -202,6 +205,11 @@ def in_its_order(text: str) -> str:
     if not has_right_to_left(text):
         return left_to_right(text)
     return f"{_ISOLATE_RIGHT_TO_LEFT}{text}{_END}" if _spoken[0].right_to_left else text
+
+
+def signs_in_order(text: str) -> str:
+    """What somebody has written, with each sign kept before its number: from right to left it would stand behind."""
+    return _SIGN.sub(_SIGN_MARK, text) if has_right_to_left(text) else text
 
 
 def without_isolates(text: str) -> str:

@@ -20,6 +20,7 @@ from rvsim.language import (
     listed,
     read_catalogue,
     sentences,
+    signs_in_order,
     speak,
     tr,
     trn,
@@ -119,6 +120,13 @@ def test_a_text_is_laid_out_from_the_right_whatever_it_begins_with(monkeypatch: 
     assert sentences("x", "y")[0] == RTL_MARK
     assert [tr("Newton"), tr("base"), tr("{n} of nobody", n=1)[1:2]] == ["Newton", "\u0642", "1"]
     assert without_isolates(tr("{a}: {b}", a="x", b="y")) == "x: y"
+
+
+def test_signs_stay_before_numbers_in_what_somebody_has_written() -> None:
+    arabic = "\u0627\u0644\u0645\u0631\u0641\u0642 \u2212156.7\u00b0"
+    assert signs_in_order(arabic) == arabic.replace("\u2212", "\u200e\u2212")
+    assert signs_in_order(signs_in_order(arabic)) == signs_in_order(arabic)
+    assert signs_in_order("the elbow at \u2212156.7\u00b0") == "the elbow at \u2212156.7\u00b0"
 
 
 def test_an_unknown_language_is_refused() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from PySide6.QtCore import QMimeData, Signal
+from PySide6.QtCore import QMimeData, Qt, Signal
 from PySide6.QtGui import QTextOption
 from PySide6.QtWidgets import QPlainTextEdit, QWidget
 
@@ -30,6 +30,9 @@ class TextBox(QPlainTextEdit):
     def __init__(self, text: str = "", longest: int = 1_000_000, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._longest = longest
+        option = self.document().defaultTextOption()
+        option.setTextDirection(Qt.LayoutDirection.LayoutDirectionAuto)  # each paragraph as it is written
+        self.document().setDefaultTextOption(option)
         self.setPlainText(text)
 
     def setPlainText(self, text: str) -> None:

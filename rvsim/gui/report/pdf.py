@@ -14,7 +14,7 @@ from rvsim.gui.report.pages import Page, paginated
 from rvsim.gui.report.strips import Strip, section_strips, text_strips
 from rvsim.gui.report.typography import MUTED, RULE, Text, aside, text_width
 from rvsim.lab.report.values import Cover, Document
-from rvsim.language import tr, without_isolates
+from rvsim.language import signs_in_order, tr, without_isolates
 
 PAGE = (595.0, 842.0)  # A4 [pt]
 MARGIN = (71.0, 74.0, 71.0, 70.0)  # left, top, right, bottom
@@ -87,7 +87,7 @@ def _title_strips(cover: Cover) -> Iterator[Strip]:
     if who:
         yield from text_strips(who, faces.LEAD._replace(sans=True, size=10.5, color=MUTED), WIDTH, above=4.0)
     yield Strip(1.2, _title_rule, 9.0)
-    for line in cover.notes.splitlines():
+    for line in signs_in_order(cover.notes).splitlines():
         if line.strip():
             yield from text_strips(line.strip(), faces.BODY, WIDTH, above=6.0, justified=True)
 

@@ -26,7 +26,7 @@ from rvsim.lab.report.values import (
     Words,
     runs,
 )
-from rvsim.language import has_right_to_left, in_its_order, language, tr
+from rvsim.language import has_right_to_left, in_its_order, language, signs_in_order, tr
 
 _TOTAL = ' class="total"'
 
@@ -66,7 +66,7 @@ def html_parts(document: Document, artist: Artist) -> Iterator[str]:
 def _head(document: Document) -> str:
     cover = document.cover
     who = " · ".join(f'<span dir="auto">{escape(text)}</span>' for text in (cover.author, cover.date) if text)
-    notes = "".join(f'<p class="own" dir="auto">{escape(line)}</p>\n' for line in _lines(cover.notes))
+    notes = "".join(f'<p class="own" dir="auto">{escape(line)}</p>\n' for line in _lines(signs_in_order(cover.notes)))
     return (
         f'<header>\n<p class="kind">{escape(tr("Laboratory report"))}</p>\n'
         f"<h1{_own_direction(cover.title)}>{escape(cover.title)}</h1>\n"
