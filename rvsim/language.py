@@ -37,7 +37,7 @@ _ISOLATE, _ISOLATE_LEFT_TO_RIGHT, _ISOLATE_RIGHT_TO_LEFT, _END = "\u2068", "\u20
 # What a text begins with to be laid out from right to left, though its first letter is a Latin one or a value's.
 _RIGHT_TO_LEFT_MARK = "\u200f"
 _SIGN_MARK = "\u200e"  # stands before the sign of a number among words from right to left
-_SIGN = re.compile(r"(?<![\w.\u200e])(?=[-+\u2212\xb1][.\d])")
+_SIGN = re.compile(r"(?<![^\W\d_])(?<!\u200e)(?=[-+\u2212\xb1][.\d])")
 _FIELD = re.compile(r"\{[^{}]*\}")
 _STRIPPED = str.maketrans(
     "", "", _ISOLATE + _ISOLATE_LEFT_TO_RIGHT + _ISOLATE_RIGHT_TO_LEFT + _END + _RIGHT_TO_LEFT_MARK
@@ -205,6 +205,13 @@ def in_its_order(text: str) -> str:
     if not has_right_to_left(text):
         return left_to_right(text)
     return f"{_ISOLATE_RIGHT_TO_LEFT}{text}{_END}" if _spoken[0].right_to_left else text
+
+
+def begins_right(text: str) -> bool:
+    """Whether a text is written from right to left by its first letter; one of none as the language is."""
+    kinds = (unicodedata.bidirectional(letter) for letter in text)
+    first = next((kind for kind in kinds if kind in ("L", "R", "AL")), "")
+    return first in ("R", "AL") if first else _spoken[0].right_to_left
 
 
 def signs_in_order(text: str) -> str:

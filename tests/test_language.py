@@ -126,6 +126,7 @@ def test_signs_stay_before_numbers_in_what_somebody_has_written() -> None:
     arabic = "\u0627\u0644\u0645\u0631\u0641\u0642 \u2212156.7\u00b0"
     assert signs_in_order(arabic) == arabic.replace("\u2212", "\u200e\u2212")
     assert signs_in_order(signs_in_order(arabic)) == signs_in_order(arabic)
+    assert signs_in_order("\u0645 10-20") == "\u0645 10\u200e-20"
     assert signs_in_order("the elbow at \u2212156.7\u00b0") == "the elbow at \u2212156.7\u00b0"
 
 

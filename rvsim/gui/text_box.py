@@ -8,8 +8,12 @@ from PySide6.QtCore import QMimeData, Qt, Signal
 from PySide6.QtGui import QTextOption
 from PySide6.QtWidgets import QPlainTextEdit, QWidget
 
+from rvsim.language import begins_right
+
 # To find where a word may be broken takes Qt time with the square of its length: a minute for a million letters.
 _LONG_WORD = re.compile(r"\S{1000}")
+_BEGINNING = 1000  # [characters] of the first paragraph, which says where the text stands
+_AUTO = Qt.LayoutDirection.LayoutDirectionAuto
 _WRAP = QTextOption.WrapMode
 
 
@@ -30,10 +34,9 @@ class TextBox(QPlainTextEdit):
     def __init__(self, text: str = "", longest: int = 1_000_000, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._longest = longest
-        option = self.document().defaultTextOption()
-        option.setTextDirection(Qt.LayoutDirection.LayoutDirectionAuto)  # each paragraph as it is written
-        self.document().setDefaultTextOption(option)
+        self.textChanged.connect(self._align)
         self.setPlainText(text)
+        self._align()
 
     def setPlainText(self, text: str) -> None:
         """Show this text, the beginning of it where it is too long."""
@@ -54,6 +57,16 @@ class TextBox(QPlainTextEdit):
         self.ensureCursorVisible()
         if len(text) > room:
             self.left_out.emit()
+
+    def _align(self) -> None:
+        """To the side where the text begins; each paragraph has its own direction."""
+        option = self.document().defaultTextOption()
+        right = begins_right(self.document().begin().text()[:_BEGINNING])
+        side = Qt.AlignmentFlag.AlignRight if right else Qt.AlignmentFlag.AlignLeft
+        if option.alignment() != side or option.textDirection() != _AUTO:
+            option.setAlignment(side)
+            option.setTextDirection(_AUTO)
+            self.document().setDefaultTextOption(option)
 
     def _wrap_for(self, text: str) -> None:
         if wrap_mode(text) == _WRAP.WrapAnywhere:

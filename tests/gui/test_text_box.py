@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import QMimeData
+from PySide6.QtCore import QMimeData, Qt
 from PySide6.QtGui import QTextOption
 from pytestqt.qtbot import QtBot
 
@@ -46,3 +46,11 @@ def test_a_word_without_an_end_is_broken_anywhere_and_others_between_words(box: 
     assert box.wordWrapMode() == QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere
     box.setPlainText("١" * 4000)
     assert box.wordWrapMode() == QTextOption.WrapMode.WrapAnywhere
+
+
+def test_a_text_stands_on_the_side_where_it_begins(box: TextBox) -> None:
+    sides = []
+    for text in ("abc", "\u2212156.7\u00b0 \u0632\u0627\u0648\u064a\u0629", "elbow"):
+        box.setPlainText(text)
+        sides.append(box.document().defaultTextOption().alignment())
+    assert sides == [Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight, Qt.AlignmentFlag.AlignLeft]
