@@ -24,7 +24,19 @@ _FUNCTIONS = {name: getattr(math, name) for name in _FUNCTION_NAMES}
 _LONGEST = 200
 # The comma is a decimal separator when it stands between digits outside a function's arguments.
 _DECIMAL_COMMA = re.compile(r"^\s*[-+]?\d*,\d+\s*$")
-_TYPOGRAPHY = str.maketrans({"\u2212": "-", "\u2013": "-", "×": "*", "·": "*", "÷": "/", "\u00a0": " ", "\u202f": " "})
+_TYPOGRAPHY = str.maketrans(
+    {
+        "\u2212": "-",
+        "\u2013": "-",
+        "×": "*",
+        "·": "*",
+        "÷": "/",
+        "\u00a0": " ",
+        "\u202f": " ",
+        "\u066b": ".",
+        "\u066c": "",
+    }
+)
 
 # The kind of each unit that may stand behind a number, and how much one of it is in radians, metres, or units.
 _UNITS = {
@@ -70,7 +82,8 @@ def evaluate_in(unit: str, text: str) -> float:
 def evaluate(text: str) -> float:
     """The finite number that a typed text means.
 
-    Accepts decimals with a point or a comma, the digits of any script, + - * / ** ( ), pi and the usual functions.
+    Accepts decimals with a point or a comma (Arabic ones too), the digits of any script, + - * / ** ( ), pi and the
+    usual functions.
 
     Raises:
         ExpressionError: the text is empty, too long, no expression, or not a finite number.

@@ -23,6 +23,7 @@ from rvsim.expressions import evaluate, evaluate_formula, evaluate_in
         ("rad", "-2*30 deg", -math.pi / 3),
         ("mm", "12 cm", 120.0),
         ("mm", "0,3 m", 300.0),
+        ("mm", "\u0661\u066c\u0662\u0663\u0664\u066b\u0665", 1234.5),
         ("m", "300 mm", 0.3),
         ("m", "sqrt(4)m", 2.0),
         ("unit", "2.5 units", 2.5),
