@@ -5,11 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabWidget, QWidget
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QMenu, QTabBar, QTabWidget, QWidget
 
 from rvsim.gui.page_stack import Page, PageStack
 from rvsim.language import language, tr
+
+
+class _NoWheel(QObject):
+    """Keeps the wheel from tabs: somebody who scrolls a panel would find another one in front."""
+
+    def eventFilter(self, _watched: QObject, event: QEvent) -> bool:
+        """Whether it is one of the wheel, which ends here."""
+        return event.type() == QEvent.Type.Wheel
 
 
 class PanelDocks:
@@ -38,6 +46,13 @@ class PanelDocks:
         for dock in self.right:
             dock.setTitleBarWidget(QWidget())  # the tab says it already; a low screen needs the room
         self.right[0].raise_()
+        self._no_wheel = _NoWheel(window)
+        for dock in self.right:
+            dock.visibilityChanged.connect(self._calm_tabs)  # Qt makes the tabs when it lays the docks out
+
+    def _calm_tabs(self) -> None:
+        for bar in self._window.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly):
+            bar.installEventFilter(self._no_wheel)
 
     def _add(self, name: str, title: str, panel: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = QDockWidget(tr(title), self._window)

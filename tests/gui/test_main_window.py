@@ -7,8 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QGuiApplication, QImage, QStatusTipEvent
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QAction, QGuiApplication, QImage, QStatusTipEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QMessageBox, QScrollArea, QTabBar, QToolBar, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -282,3 +282,13 @@ def test_saving_after_a_run_on_an_arm_says_that_the_run_is_kept_elsewhere(
         monkeypatch.setattr(DeviceControl, "recording", SimpleNamespace(empty=empty))
         assert window.document.save_to(tmp_path / "after.rvsim")
         assert ("The run on the arm is not in it" in said[-1]) is not empty
+
+
+def test_the_wheel_over_the_tabs_brings_no_other_panel_to_the_front(window: MainWindow) -> None:
+    window.docks.show_panel("path")
+    bar = next(bar for bar in window.findChildren(QTabBar) if bar.parent() is window)
+    at = QPointF(bar.rect().center())
+    buttons, keys, phase = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase
+    turned = QWheelEvent(at, bar.mapToGlobal(at), QPoint(), QPoint(0, -120), buttons, keys, phase, False)
+    QApplication.sendEvent(bar, turned)
+    assert window.docks.front_page == "path"
