@@ -25,6 +25,8 @@ class UndoWords(QObject):
         self._undo, self._redo = undo, redo
         stack.undoTextChanged.connect(self._show_undo)
         stack.redoTextChanged.connect(self._show_redo)
+        self._show_undo(stack.undoText())  # the stack may have steps: of a window in another language
+        self._show_redo(stack.redoText())
 
     def _show_undo(self, text: str) -> None:
         self._undo.setText(undo_words(tr("Undo"), text))

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QModelIndex, Qt
-from PySide6.QtGui import QAction
+from PySide6.QtCore import QModelIndex, QPoint, Qt
+from PySide6.QtGui import QAction, QUndoCommand, QUndoStack
 from PySide6.QtWidgets import (
     QAbstractButton,
     QAbstractItemView,
@@ -27,9 +27,11 @@ from pytestqt.qtbot import QtBot
 
 import rvsim.language
 from rvsim.gui.app import build_window
+from rvsim.gui.help.window import HelpWindow
 from rvsim.gui.languages import wear_language
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.robot_library import RobotLibrary
+from rvsim.gui.undo_words import UndoWords
 from rvsim.language import LANGUAGES, Catalogue
 
 
@@ -57,6 +59,29 @@ def test_arabic_is_written_from_right_to_left_and_numbers_are_not(qapp: QApplica
         assert found is not None, name
         assert found.layoutDirection() == Qt.LayoutDirection.LeftToRight, name
     window.close()
+
+
+def test_in_arabic_help_opens_away_from_the_panels_and_points_stand_from_left_to_right(
+    qapp: QApplication, qtbot: QtBot
+) -> None:
+    wear_language(qapp, "ar")
+    window = build_window(Preferences())
+    qtbot.addWidget(window)
+    window.resize(1366, 768)
+    window.show()
+    window.docks.show_panel("path")
+    places = [window.findChild(QWidget, f"line_start_{axis}").mapTo(window, QPoint()).x() for axis in "xyz"]
+    assert places == sorted(places)
+    shown = HelpWindow(window, "path")
+    assert window.frameGeometry().center().x() < shown.geometry().center().x() < window.geometry().right()
+    window.close()
+
+
+def test_undo_says_what_in_a_window_that_takes_over_steps(qtbot: QtBot) -> None:
+    stack, undo, redo = QUndoStack(), QAction("Undo: old"), QAction("Redo: old")
+    stack.push(QUndoCommand("Move joint 3"))
+    UndoWords(undo, redo, stack, stack)
+    assert (undo.text(), redo.text()) == ("Undo: move joint 3", "Redo")
 
 
 # --- every text goes through tr --------------------------------------------------------------------------------------

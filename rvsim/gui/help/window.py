@@ -118,15 +118,16 @@ class HelpWindow(QWidget):
             QShortcut(QKeySequence(text), self, slot)
 
     def _place_window(self, page: str) -> None:
-        """As it was left; else at the left of the window behind, so that the panel that it explains can be seen."""
+        """As it was left; else where the window behind begins, so that the panel that it explains can be seen."""
         kept = self._window.preferences.window_state("help")
         if not kept.isEmpty() and self.restoreGeometry(kept):
             return
         behind = self._window.geometry()
         narrow, wide = _WIDTHS
         self.resize(min(max(round(_SHARE * behind.width()), narrow), wide), min(_HEIGHT, behind.height() - _MARGIN))
-        aside = QPoint(self._window.docks.left.width(), 0) if page == _AT_LEFT else QPoint()
-        self.move(behind.topLeft() + _AT + aside)
+        aside = _AT + (QPoint(self._window.docks.left.width(), 0) if page == _AT_LEFT else QPoint())
+        left = behind.right() + 1 - aside.x() - self.width() if self.isRightToLeft() else behind.left() + aside.x()
+        self.move(left, behind.top() + aside.y())
 
     # --- going -------------------------------------------------------------------------------------------------------
 

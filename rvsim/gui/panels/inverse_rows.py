@@ -15,7 +15,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication, QPainter
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from rvsim.gui.panels.tables import LEFT, RIGHT, Index
-from rvsim.language import left_to_right
+from rvsim.language import language, left_to_right
 
 PAD, GAP = 4, 8
 _CENTER = Qt.AlignmentFlag.AlignCenter
@@ -70,7 +70,7 @@ class RowInk:
         return not row.stop or metrics.horizontalAdvance(row.title) + GAP + metrics.horizontalAdvance(row.stop) <= room
 
     def paint(self, painter: QPainter, rect: QRect, ends: Sequence[int], row: RowText) -> None:
-        """A row: its name at the left; the title, at its end or below it the stop; the numbers at their `ends`."""
+        """A row: its name at the left, the title from where one reads, the stop at its end or below it, the numbers."""
         painter.setFont(self.bold if row.here else self.plain)
         painter.drawText(QRect(0, rect.y(), ends[0], rect.height()), _CENTER, row.name)
         self._paint_title(painter, QRect(ends[0], rect.y() + 2, rect.width() - ends[0] - PAD, self.line), row)
@@ -80,12 +80,13 @@ class RowInk:
             painter.drawText(QRect(start, top, end - start - PAD, self.line), RIGHT, left_to_right(number))
 
     def _paint_title(self, painter: QPainter, line: QRect, row: RowText) -> None:
+        first, last = (RIGHT, LEFT) if language().right_to_left else (LEFT, RIGHT)
         title = self.metrics[row.here].elidedText(row.title, Qt.TextElideMode.ElideRight, line.width())
-        painter.drawText(line, LEFT, title)
+        painter.drawText(line, first, title)
         if row.stop:
             beside = self.fits_beside(row, line.width())
             stop = self.metrics[row.here].elidedText(row.stop, Qt.TextElideMode.ElideRight, line.width())
-            painter.drawText(line if beside else line.translated(0, self.line), RIGHT if beside else LEFT, stop)
+            painter.drawText(line if beside else line.translated(0, self.line), last if beside else first, stop)
 
 
 def row_color(palette: QPalette, *, usable: bool, chosen: bool) -> QColor:

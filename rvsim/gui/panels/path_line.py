@@ -79,14 +79,15 @@ class LineSection(QGroupBox):
     def _lay_out(self) -> None:
         grid = QGridLayout()
         grid.setSpacing(6)
-        for column, axis in enumerate(_AXES):
+        columns = (3, 2, 1) if self.isRightToLeft() else (1, 2, 3)  # x, y, z from left to right in any language
+        for column, axis in zip(columns, _AXES, strict=True):
             label = QLabel(axis)
             set_role(label, role="muted")
-            grid.addWidget(label, 0, column + 1, Qt.AlignmentFlag.AlignHCenter)
+            grid.addWidget(label, 0, column, Qt.AlignmentFlag.AlignHCenter)
         for row, (end, (title, *_)) in enumerate(_ENDS.items(), 1):
             grid.addWidget(QLabel(tr(title)), row, 0)
-            for column, box in enumerate(self.boxes[end]):
-                grid.addWidget(box, row, column + 1)
+            for column, box in zip(columns, self.boxes[end], strict=True):
+                grid.addWidget(box, row, column)
         step = QHBoxLayout()
         step.setSpacing(6)
         step.addWidget(self.resolution, 1)
