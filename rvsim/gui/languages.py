@@ -7,7 +7,7 @@ from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QApplication, QMainWindow, QMenu
 
 from rvsim.gui.preferences import Preferences
-from rvsim.language import LANGUAGES, language, speak, tr
+from rvsim.language import LANGUAGES, catalogue_file, language, speak, tr
 
 _NAME = "qt_words"  # of the translator of Qt's own dialogs and buttons
 
@@ -31,14 +31,19 @@ def wear_language(app: QApplication, code: str) -> None:
 
 
 def _translate_qt(app: QApplication, code: str) -> None:
-    old = app.findChild(QTranslator, _NAME)
-    if old is not None:
+    """Qt's own words, and before them those that it has not, or says otherwise than the window."""
+    for old in app.findChildren(QTranslator, _NAME):
         app.removeTranslator(old)
         old.setParent(None)
-    translator = QTranslator(app)
-    translator.setObjectName(_NAME)
-    if translator.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
-        app.installTranslator(translator)
+    for file in (f"{QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)}/qtbase_{code}", _own_words(code)):
+        translator = QTranslator(app)
+        translator.setObjectName(_NAME)
+        if translator.load(file):
+            app.installTranslator(translator)
+
+
+def _own_words(code: str) -> str:
+    return str(catalogue_file(code).with_name(f"qt_{code}.qm"))
 
 
 def language_menu(window: QMainWindow, preferences: Preferences) -> QMenu:

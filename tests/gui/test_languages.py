@@ -32,7 +32,7 @@ from rvsim.gui.languages import wear_language
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.undo_words import UndoWords
-from rvsim.language import LANGUAGES, Catalogue
+from rvsim.language import LANGUAGES, Catalogue, has_right_to_left, tr
 
 
 @pytest.fixture(autouse=True)
@@ -54,7 +54,7 @@ def test_arabic_is_written_from_right_to_left_and_numbers_are_not(qapp: QApplica
     qtbot.addWidget(window)
     assert window.layoutDirection() == Qt.LayoutDirection.RightToLeft
     window.session.move_to(window.session.q - 0.2, "")
-    for name in ("joint_value_1", "joint_slider_1", "time_slider", "tool_card"):
+    for name in ("joint_value_1", "joint_slider_1", "time_slider", "tool_card", "device_gripper"):
         found = window.findChild(QWidget, name)
         assert found is not None, name
         assert found.layoutDirection() == Qt.LayoutDirection.LeftToRight, name
@@ -75,6 +75,22 @@ def test_in_arabic_help_opens_away_from_the_panels_and_points_stand_from_left_to
     shown = HelpWindow(window, "path")
     assert window.frameGeometry().center().x() < shown.geometry().center().x() < window.geometry().right()
     window.close()
+
+
+def test_file_dialogs_speak_arabic_in_the_words_of_the_window(qapp: QApplication) -> None:
+    wear_language(qapp, "ar")
+    said = [
+        qapp.translate(*key)
+        for key in (
+            ("QFileDialog", "&Look in:"),
+            ("QFileDialog", "Files of &type:"),
+            ("QAbstractFileIconProvider", "Folder", "All other platforms"),
+        )
+    ]
+    assert all(map(has_right_to_left, said))
+    assert qapp.translate("QPlatformTheme", "Close") == tr("Close")
+    wear_language(qapp, "en")
+    assert qapp.translate("QPlatformTheme", "Close") == "Close"
 
 
 def test_undo_says_what_in_a_window_that_takes_over_steps(qtbot: QtBot) -> None:

@@ -85,6 +85,7 @@ class DrivePage(InspectPage):
             device.take_pose,
         )  # fmt: skip
         self.gripper = Slider()
+        self.gripper.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # as those of the joints, in any language
         self.gripper.setObjectName("device_gripper")
         self.gripper.setAccessibleName(tr("Gripper, from closed to open"))
         self.gripper.setRange(0, _STEPS)
