@@ -17,6 +17,7 @@ from types import TracebackType
 
 from PySide6.QtCore import QMessageLogContext, QObject, Qt, QtMsgType, Signal, qInstallMessageHandler
 from PySide6.QtWidgets import QMessageBox, QWidget
+from shiboken6 import isValid
 
 from rvsim.errors import RvsimError
 from rvsim.language import tr, trn
@@ -79,7 +80,8 @@ class CrashReporter(QObject):
             sys.exit(130)
         details = "".join(traceback.format_exception(kind, error, trace))
         _LOG.error("uncaught: %s", details)
-        self._caught.emit(self._sentence(kind, error), details)
+        if isValid(self):  # at the end of the program there is nobody left to tell
+            self._caught.emit(self._sentence(kind, error), details)
 
     def _sentence(self, kind: type[BaseException], error: BaseException) -> str:
         if isinstance(error, RvsimError):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QByteArray, QObject, QTimer
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication
 
 from rvsim.gui.document_state import port_section, show_view, view_of
 from rvsim.gui.languages import system_language, wear_language
@@ -71,20 +71,8 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     new.setVisible(old.isVisible())
     _go_on_with_tour(old, new)
     old.document.autosave.close()
-    old.end()
-    _hide(old)
+    old.rest()
     return new
-
-
-def _hide(window: MainWindow) -> None:
-    """Hide a window with its floating docks and dialogs, while they are whole.
-
-    A window that is still shown hides itself in the middle of being destroyed, and its parts answer to that when the
-    Python side of what they ask is gone.
-    """
-    for widget in (*window.findChildren(QWidget), window):
-        if widget.isWindow():
-            widget.hide()
 
 
 def _go_on_with_tour(old: MainWindow, new: MainWindow) -> None:

@@ -396,6 +396,17 @@ class MainWindow(QMainWindow):
         self.docks.close_workers()
         self.collector.end()
 
+    def rest(self) -> None:
+        """End for good: hide with all floating docks and dialogs, while they are whole.
+
+        A window that is still shown hides itself in the middle of being destroyed, and its parts answer to that when
+        the Python side of what they ask is gone.
+        """
+        self.end()
+        for widget in (*self.findChildren(QWidget), self):
+            if widget.isWindow():
+                widget.hide()
+
 
 def _layout_key() -> str:
     """Under which the docks are remembered: from right to left they lie the other way round."""

@@ -38,6 +38,8 @@ def save_screenshot(window: MainWindow, options: argparse.Namespace) -> int:
     except (RvsimError, OSError) as problem:
         print(f"rvsim: {problem}", file=sys.stderr)
         return 2
+    finally:
+        window.rest()
     print(options.screenshot)
     return 0
 
