@@ -153,6 +153,21 @@ class NotFiniteError(RvsimError, ValueError):
         )
 
 
+class TooLargeError(RvsimError, ValueError):
+    """A length or factor with which nothing can be worked out: its square is no number."""
+
+    def __init__(self, name: str, found: float, most: float) -> None:
+        self.name, self.found, self.most = name, found, most
+        super().__init__(
+            tr(
+                "{name} is {found:g}, and that is too large for an arm: at most {most:g}.",
+                name=name,
+                found=found,
+                most=most,
+            )
+        )
+
+
 class TooManyPointsError(RvsimError, ValueError):
     """A path of so many points that nobody would wait for it."""
 

@@ -35,11 +35,12 @@ from rvsim.motion import Path, shapes
 from rvsim.motion.lettering import text_strokes
 from rvsim.motion.shapes import Drawing
 from rvsim.robot import Robot
-from rvsim.robot.arrays import FloatArray
+from rvsim.robot.arrays import FloatArray, check_size
 from rvsim.robot.edits import original_name
 from rvsim.spatial import rotation_from_rpy, transform
 
 MOST_SAMPLES = 20_001
+_LARGEST = 1e9  # of lengths [m] and factors: as much as can be typed
 _COORDINATES = ("x", "y", "z")
 
 
@@ -278,6 +279,7 @@ def task_path(robot: Robot, task: TrajectoryTask, q: ArrayLike | None = None) ->
         LetterError, TooManyPointsError: a text that cannot be written, or that is too finely drawn.
         FormulaError: a formula that cannot be worked out.
         ShapeError: a shape without points.
+        TooLargeError: a shape, or where it is put, beyond any arm.
         PathFileError, OSError: a file that cannot be read.
     """
     own = line_presets(robot)[0].orientation if is_shape(task) else "source"
@@ -299,7 +301,8 @@ def plane_normal(robot: Robot, task: TrajectoryTask) -> FloatArray | None:
 def _placed(robot: Robot, task: TrajectoryTask, q: ArrayLike | None) -> Path:
     if is_flat(task):
         kind, where = SHAPES[task.name], placement_of(robot, task)
-        drawing = kind.draw(shape_of(robot, task))
+        drawing = _drawn(robot, task)
+        check_size(tr("placement"), (*where.center, *where.rpy, where.scale), _LARGEST)
         scaled = replace(drawing, points=where.scale * drawing.points)
         T = transform(rotation_from_rpy(where.rpy), where.center)
         return shapes.drawn_on(T, scaled, name=task.name, title=kind.title)
@@ -311,8 +314,16 @@ def _placed(robot: Robot, task: TrajectoryTask, q: ArrayLike | None) -> Path:
 def _unplaced(robot: Robot, task: TrajectoryTask, q: ArrayLike | None) -> Path:
     if not is_shape(task):
         return named_path(task.name, robot, orientation="source", height=task.height, q=q)
-    kind = SHAPES[task.name]
-    return shapes.drawn_on(np.eye(4), kind.draw(shape_of(robot, task)), name=task.name, title=kind.title)
+    return shapes.drawn_on(np.eye(4), _drawn(robot, task), name=task.name, title=SHAPES[task.name].title)
+
+
+def _drawn(robot: Robot, task: TrajectoryTask) -> Drawing:
+    """What the task's shape draws, in the plane or where it is."""
+    shape = shape_of(robot, task)
+    for name, value in vars(shape).items():
+        if isinstance(value, float | np.ndarray):
+            check_size(name, value, _LARGEST)
+    return SHAPES[task.name].draw(shape)
 
 
 def _first_line(robot: Robot) -> tuple[FloatArray, float]:

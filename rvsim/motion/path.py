@@ -10,13 +10,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from rvsim.errors import ShapeError
 from rvsim.language import tr, tr_later
-from rvsim.robot.arrays import FloatArray, check_finite, frozen_array
+from rvsim.robot.arrays import FloatArray, check_finite, check_size, frozen_array
 
 # The tool's z axis points straight down, its x axis along the base's x axis (source 000 tracks with this rotation).
 TOOL_DOWN = frozen_array("tool down", np.diag([1.0, -1.0, -1.0]), (3, 3))
 
 _IDENTITY = frozen_array("identity", np.eye(3), (3, 3))
 _CORNER, _UNUSUAL = np.radians(25.0), 4.0  # how far a path must turn to have a corner, and how many times the usual
+_FARTHEST = 1e12  # [m]: the fourth power of it, and what is found on the way, is still a number
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +37,7 @@ class Path:
     Raises:
         ShapeError: points and rotations do not fit together.
         NotFiniteError: a number among them is NaN or infinite.
+        TooLargeError: a point is further away than any arm could be.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Path:
         if not self.samples:
             raise ShapeError(tr("path points"), tr("(at least 1, 3)"), self.points.shape)
         check_finite("path points", self.points)
+        check_size("path points", self.points, _FARTHEST)
         if self.rotations is not None:
             rotations = frozen_array("path rotations", self.rotations, (self.samples, 3, 3))
             object.__setattr__(self, "rotations", rotations)

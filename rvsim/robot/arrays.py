@@ -7,7 +7,7 @@ from typing import TypeGuard
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rvsim.errors import NotFiniteError, ShapeError
+from rvsim.errors import NotFiniteError, ShapeError, TooLargeError
 
 FloatArray = NDArray[np.float64]
 
@@ -36,6 +36,17 @@ def check_finite(name: str, array: FloatArray) -> None:
     if not finite.all():
         index = tuple(int(i) for i in np.argwhere(~finite)[0])
         raise NotFiniteError(name, index, float(array[index]))
+
+
+def check_size(name: str, values: ArrayLike, most: float) -> None:
+    """Refuse what is so large that to work with it overflows: magnitudes above `most`.
+
+    Raises:
+        TooLargeError: with the largest of them.
+    """
+    largest = float(np.abs(values).max(initial=0.0))
+    if largest > most:
+        raise TooLargeError(name, largest, most)
 
 
 def _is_frozen(values: ArrayLike) -> TypeGuard[FloatArray]:

@@ -8,9 +8,19 @@ import numpy as np
 import pytest
 
 from rvsim import load_robot, robot_names
-from rvsim.errors import FormulaError, LetterError, TooManyPointsError
-from rvsim.experiment import Placement, TrajectoryTask
-from rvsim.experiment.shapes import SHAPE_KINDS, FormulaShape, FormulaStage, Join, PointsShape, TextShape
+from rvsim.errors import FormulaError, LetterError, TooLargeError, TooManyPointsError
+from rvsim.experiment import Placement, Shape, TrajectoryTask
+from rvsim.experiment.shapes import (
+    SHAPE_KINDS,
+    ArcThroughShape,
+    EllipseShape,
+    FormulaShape,
+    FormulaStage,
+    Join,
+    PointsShape,
+    StarShape,
+    TextShape,
+)
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab import named_path
 from rvsim.lab.orientations import normal_gap
@@ -73,6 +83,22 @@ def test_too_many_points_are_refused_and_constants_will_do() -> None:
 def test_a_text_that_cannot_be_written_says_why_in_a_sentence(shape: TextShape, problem: str) -> None:
     with pytest.raises((LetterError, TooManyPointsError), match=problem):
         task_path(load_robot("rv-m1"), TrajectoryTask("text", shape=shape))
+
+
+@pytest.mark.parametrize(
+    ("name", "shape"),
+    [
+        ("star", StarShape(1e308)),
+        ("ellipse-shape", EllipseShape(0.1, 1e200)),
+        ("arc-through", ArcThroughShape(1e160 * np.eye(3))),
+        ("points", PointsShape(np.array([[0, 0, 0], [1e308, -1e308, 0]]), "natural")),
+        ("text", TextShape(1e200)),
+        ("formulas", FormulaShape((FormulaStage(1.0, 3, "1e300*t", "0*t", "0*t"),))),
+    ],
+)
+def test_what_is_too_large_to_be_worked_out_is_refused(name: str, shape: Shape) -> None:
+    with pytest.raises(TooLargeError, match="too large for an arm: at most 1e"):
+        task_path(load_robot("rv-m1"), TrajectoryTask(name, shape=shape))
 
 
 @pytest.mark.parametrize("join", ["lines", "natural", "not-a-knot", "closed", "none"])

@@ -164,7 +164,8 @@ def _centres(start: int, count: int) -> SingleArray:
 
 def _met(part: _Part, raster: _Raster, columns: SingleArray, rows: SingleArray) -> Hits:
     """The depth before the eye, and the face, for rays through raster places."""
-    found, face = part.body.hits(raster.rays(columns, rows, part.body.centre))
+    with np.errstate(over="ignore", invalid="ignore"):  # from thousands of kilometres away nothing is met
+        found, face = part.body.hits(raster.rays(columns, rows, part.body.centre))
     found = found + np.float32(part.body.centre[2])
     if not raster.lens.orthographic:
         found[found < raster.lens.near] = np.inf
