@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
 CATALOGUES = ROOT / "resources" / "languages"
-# Keys of robot files whose texts the window shows; citations of documents and names of arms stay as they are.
+# Keys of robot files whose texts the window shows; citations of documents stay as they are.
 MARKED_KEYS = frozenset({
-    "family", "notes", "joint.name", "tool.title", "mass.source", "servo.source", "gripper_servo.source",
+    "title", "family", "notes", "joint.name", "tool.title", "mass.source", "servo.source", "gripper_servo.source",
     "joint.max_speed.source", "joint.max_acceleration.source", "joint.max_torque.source",
 })  # fmt: skip
 _SYMBOL = re.compile(r"[a-z]+\d")  # theta1, d3: in any language

@@ -63,7 +63,7 @@ class _Joints:
                 "{n} number, one for each joint of the {robot}",
                 "{n} numbers, one for each joint of the {robot}",
                 len(names),
-                robot=self.robot.title,
+                robot=tr(self.robot.title),
             )
             place.refuse(found, expected)
         return tuple(

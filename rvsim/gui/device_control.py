@@ -131,7 +131,7 @@ class DeviceControl(QObject):
         self.disconnect_device()
         robot = self._session.robot
         if not robot.servos:
-            why = tr("The {arm} has no servos in its robot file.", arm=robot.title)
+            why = tr("The {arm} has no servos in its robot file.", arm=tr(robot.title))
             advice = tr("Take the Lynxmotion AL5B, or an arm of yours with [[servo]] tables.")
             self._session.say(f"{why} {advice}", "error")
             return

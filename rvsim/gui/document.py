@@ -135,7 +135,7 @@ class Document(QObject):
 
     def show_title(self) -> None:
         """The window's title: "name* – RV-M1 – rvsim"."""
-        title = f"{self.name}{'*' if self.dirty else ''} \u2013 {self._session.robot.title} \u2013 rvsim"
+        title = f"{self.name}{'*' if self.dirty else ''} \u2013 {tr(self._session.robot.title)} \u2013 rvsim"
         self._window.setWindowTitle(title.replace("[*]", "[*][*]"))
 
     def _on_clean(self, clean: bool) -> None:

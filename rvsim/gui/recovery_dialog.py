@@ -108,7 +108,7 @@ def _words(leftover: Leftover) -> str:
     name = leftover.original.stem if leftover.original else tr("Untitled")
     when = _date(leftover.when)
     try:
-        arm = load_session(leftover.file).state.experiment.robot.title
+        arm = tr(load_session(leftover.file).state.experiment.robot.title)
     except RvsimError:
         arm = tr(_UNREADABLE)
     return f"{name}\n{tr('{arm}, {when}', arm=arm, when=left_to_right(when))}"

@@ -241,7 +241,7 @@ class Session(QObject):
         self._left[self.robot.name] = self.at_rest
         left = self._left.get(robot.name)
         following = left if left and left.robot is robot else self._make_experiment(robot)
-        self.edit(tr("Take the {title}", title=robot.title), following.with_notes(self._experiment.notes))
+        self.edit(tr("Take the {title}", title=tr(robot.title)), following.with_notes(self._experiment.notes))
 
     def fresh(self, robot: Robot) -> Experiment:
         """An arm as it is taken for the first time."""

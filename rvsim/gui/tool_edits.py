@@ -84,7 +84,7 @@ def _followed(robot: Robot, q: FloatArray, target: FloatArray, *, position_only:
 
 
 def _too_few_joints(robot: Robot, *, position_only: bool) -> str:
-    title, dof = robot.title, robot.dof
+    title, dof = tr(robot.title), robot.dof
     if position_only:
         return tr("The tool cannot be moved that way: the {title} has {dof} joints.", title=title, dof=dof)
     return tr("The tool cannot be turned that way: the {title} has {dof} joints.", title=title, dof=dof)

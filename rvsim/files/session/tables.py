@@ -225,7 +225,7 @@ def _experiment_fields(robot: Robot) -> tuple[Field, ...]:
         "a list of {n} number, one for each joint of the {robot}",
         "a list of {n} numbers, one for each joint of the {robot}",
         robot.dof,
-        robot=robot.title,
+        robot=tr(robot.title),
     )
     q = Reals(robot.dof, expected)
     pose = Record((Field("name", Words(40_000, shortest=1)), Field("q", q)), _named_pose, NamedPose._asdict)

@@ -181,7 +181,7 @@ class CalibratePage(InspectPage):
         """Why nothing can be calibrated now, or ""."""
         driver, robot = self._device.driver, self._session.robot
         if not robot.servos:
-            return tr(_NO_SERVOS, arm=robot.title)
+            return tr(_NO_SERVOS, arm=tr(robot.title))
         if driver is not None and driver.language == "bridge":
             return tr(_BRIDGE)
         if state is None or state.phase in ("disconnected", "connecting"):

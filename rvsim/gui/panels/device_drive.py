@@ -181,7 +181,7 @@ class DrivePage(InspectPage):
             self._phase = phase
             set_role(self.light, level=phase_level(phase), role="" if phase_level(phase) else "muted")
         self.state_label.setText(phase_words(state, self._device.title))
-        reason = state.reason if state else ("" if robot.servos else tr(_NO_SERVOS, arm=robot.title))
+        reason = state.reason if state else ("" if robot.servos else tr(_NO_SERVOS, arm=tr(robot.title)))
         self.reason.setText(reason)
         self.reason.setVisible(bool(reason))
         set_role(self.reason, level="error" if phase in ("stopped", "lost") else "")

@@ -71,9 +71,9 @@ def edit_title(robot: Robot, joint: int, key: DHKey) -> str:
     """What an edit of the cell is called: "Edit a₂ of “shoulder” of RV-M1"."""
     name = tr(robot.joint_names[joint])
     if key in _EDITS:
-        return tr(_EDITS[key], joint=name, robot=robot.title)
+        return tr(_EDITS[key], joint=name, robot=tr(robot.title))
     letter = _letter(robot, joint, key)
-    return tr("Edit {letter} of “{joint}” of {robot}", letter=letter, joint=name, robot=robot.title)
+    return tr("Edit {letter} of “{joint}” of {robot}", letter=letter, joint=name, robot=tr(robot.title))
 
 
 def _letter(robot: Robot, joint: int, key: DHKey) -> str:

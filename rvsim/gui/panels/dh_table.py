@@ -159,10 +159,10 @@ class DHTablePanel(ReadOutPanel):
         for table in (self.rows, self.limits):
             fit_height(table)
             table.setMinimumHeight(table.maximumHeight())
-        self.title.setText(robot.title)
+        self.title.setText(tr(robot.title))
         sentences = [tr(CONVENTION_SENTENCES[robot.convention])]
         if robot.name != original.name:
-            sentences.insert(0, tr("Edited copy of the {robot}.", robot=original.title))
+            sentences.insert(0, tr("Edited copy of the {robot}.", robot=tr(original.title)))
         self.convention.setText("\n".join(sentences))
         self.legend.setText(self._legend(robot))
         self.back.setEnabled(self._differs(robot, original))
@@ -233,9 +233,9 @@ class DHTablePanel(ReadOutPanel):
         """The arm as it was before the edits; an undo step leads back to them."""
         original = self.original
         self._session.edit(
-            tr("Back to the {robot}", robot=original.title), self._session.experiment.with_robot(original)
+            tr("Back to the {robot}", robot=tr(original.title)), self._session.experiment.with_robot(original)
         )
-        self._tell(tr("This is the {robot} as it was. Undo brings your edits back.", robot=original.title), "good")
+        self._tell(tr("This is the {robot} as it was. Undo brings your edits back.", robot=tr(original.title)), "good")
 
     # --- files -----------------------------------------------------------------------------------------------------
 

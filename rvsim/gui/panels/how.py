@@ -160,7 +160,7 @@ class HowPanel(ReadOutPanel):
             if self._target is None
             else tr("From the target to the joints")
         )
-        sentences = [f"{self.solution.title if self.solution else self._session.robot.title}."]
+        sentences = [f"{self.solution.title if self.solution else tr(self._session.robot.title)}."]
         if path:
             sentences.append(tr("Branch: {branch}.", branch=branch_title(", ".join(path))))
         self.hint.setText(" ".join(sentences))

@@ -257,11 +257,11 @@ class DynamicsPage(InspectPage):
         except RobotDefinitionError as problem:
             self._complain(str(problem))
             return
-        self._use(robot, tr("Edit the mass data of {robot}", robot=robot.title))
+        self._use(robot, tr("Edit the mass data of {robot}", robot=tr(robot.title)))
 
     def _guess(self) -> None:
         robot = with_guessed_masses(own_copy(self._session.robot))
-        self._use(robot, tr("Give {robot} masses", robot=robot.title))
+        self._use(robot, tr("Give {robot} masses", robot=tr(robot.title)))
 
     def _use(self, robot: Robot, text: str) -> None:
         self._session.edit(text, self._session.experiment.with_robot(robot))

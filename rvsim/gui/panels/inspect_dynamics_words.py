@@ -45,7 +45,7 @@ def no_mass_text(robot: Robot) -> str:
     return tr(
         "No mass data: no source says what the links of the {robot} weigh, so nothing can be said about its "
         "dynamics. Type masses below, or start with a guess: the arm becomes a copy of your own, which can be saved.",
-        robot=robot.title,
+        robot=tr(robot.title),
     )
 
 

@@ -242,7 +242,7 @@ class Ratings(QWidget):
         except RobotDefinitionError as problem:
             self._complain(_sentence(problem.what))
             return
-        self._use(robot, tr("Edit the torque rating of J{joint} of {robot}", joint=joint + 1, robot=robot.title))
+        self._use(robot, tr("Edit the torque rating of J{joint} of {robot}", joint=joint + 1, robot=tr(robot.title)))
 
     def _complain(self, sentence: str) -> None:
         self.message.setText(sentence)
@@ -250,7 +250,7 @@ class Ratings(QWidget):
 
     def _guess(self) -> None:
         robot = with_guessed_ratings(own_copy(self._session.robot))
-        self._use(robot, tr("Give {robot} torque ratings", robot=robot.title))
+        self._use(robot, tr("Give {robot} torque ratings", robot=tr(robot.title)))
 
     def _use(self, robot: Robot, text: str) -> None:
         self._session.edit(text, self._session.experiment.with_robot(robot))

@@ -71,7 +71,7 @@ def nothing_known(robot: Robot) -> str:
     return tr(
         "{robot}: no formula of the sources about this arm is known to be wrong. The arms with errata are the RV-M1, "
         "the RV-1A, the UR5e, the RRRP arm and the AL5B.",
-        robot=robot.title,
+        robot=tr(robot.title),
     )
 
 

@@ -139,7 +139,7 @@ class JointsPanel(QWidget):
         with QSignalBlocker(self.robots):
             self.robots.clear()
             for name, title in titles.items():
-                self.robots.addItem(title, name)
+                self.robots.addItem(tr(title), name)
             self.robots.setCurrentIndex(self.robots.findData(current))
 
     def _make_rows(self) -> None:
@@ -242,7 +242,7 @@ class JointsPanel(QWidget):
                 "A pose of the {robot} has {n} value, not {given}.",
                 "A pose of the {robot} has {n} values, not {given}.",
                 robot.dof,
-                robot=robot.title,
+                robot=tr(robot.title),
                 given=len(values),
             )
             self._session.warn(text)
@@ -267,12 +267,12 @@ class JointsPanel(QWidget):
             f"{format_number(value * display(joint_kind(self._session.robot, i), self._preferences).factor, 1)}"
             for i, value in enumerate(self._typed)
         )
-        self._session.say(tr("Plotted the {robot} at ({values}).", robot=self._session.robot.title, values=values))
+        self._session.say(tr("Plotted the {robot} at ({values}).", robot=tr(self._session.robot.title), values=values))
 
     def go_home(self) -> None:
         """Go to the arm's home pose."""
         if self._session.move_to(self._session.robot.home, tr("Go home")):
-            self._session.say(tr("The {robot} is at home.", robot=self._session.robot.title))
+            self._session.say(tr("The {robot} is at home.", robot=tr(self._session.robot.title)))
 
     def go_zero(self) -> None:
         """Go to q = 0, if the limits allow it."""

@@ -204,7 +204,7 @@ class ComparePage(PathPage):
             "{robot}, {path}, {n} point.",
             "{robot}, {path}, {n} points.",
             path.samples,
-            robot=robot.title,
+            robot=tr(robot.title),
             path=tr(path.title or path.name),
         )
         closed = [entry for entry in self.entries if entry.contestant.solver is None]

@@ -91,7 +91,7 @@ def saved(session: Session, path: Path) -> tuple[bool, str]:
     shown = named_after(session.robot, path)  # its limits are narrower while an arm is connected
     if shown is not session.robot:
         session.edit(tr("Save as {name}", name=path.name), session.experiment.with_robot(shown))
-    return True, tr("Saved {robot} as {path}.", robot=robot.title, path=path)
+    return True, tr("Saved {robot} as {path}.", robot=tr(robot.title), path=path)
 
 
 def opened(path: Path) -> tuple[Robot | None, str]:
@@ -100,4 +100,4 @@ def opened(path: Path) -> tuple[Robot | None, str]:
         robot = open_robot(path)
     except RvsimError as problem:
         return None, str(problem)
-    return robot, tr("Opened {robot} from {path}.", robot=robot.title, path=path)
+    return robot, tr("Opened {robot} from {path}.", robot=tr(robot.title), path=path)

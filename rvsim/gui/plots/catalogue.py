@@ -123,7 +123,7 @@ def _speed(curves: Curves, preferences: Preferences) -> Drawing:
 
 def _torque(curves: Curves, _preferences: Preferences) -> Drawing:
     if curves.torque is None:
-        why = tr("No mass data for the {arm}: enter it under Inspect › Dynamics.", arm=curves.robot.title)
+        why = tr("No mass data for the {arm}: enter it under Inspect › Dynamics.", arm=tr(curves.robot.title))
         return Drawing(_TORQUE, "N m", empty=why)
     unit = "N m" if curves.robot.is_revolute.all() else "N m, N"
     bands = []

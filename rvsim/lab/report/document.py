@@ -85,14 +85,14 @@ def build(
     }
     sections = [make() for name, make in makers.items() if name in wanted]
     everything = (_summary(study, measures), *sections, end_section(study, files or {}))
-    return numbered(Document(cover, study.robot.title, everything))
+    return numbered(Document(cover, tr(study.robot.title), everything))
 
 
 def _summary(study: Study, measures: Measures) -> Section:
     place = ",\u00a0".join(measures.length.text(float(value)) for value in study.T[:3, 3])
     joints = ", ".join(measures.joint(i).amount(float(value)) for i, value in enumerate(study.q))
     sentences = [
-        tr("The {title} stands at q = ({joints}).", title=study.robot.title, joints=joints),
+        tr("The {title} stands at q = ({joints}).", title=tr(study.robot.title), joints=joints),
         tr("Its tool is then at x,\u00a0y,\u00a0z\u00a0= ({place}) {unit}.", place=place, unit=measures.length.unit),
         *_inverse_words(study),
         *_path_words(study, measures),
@@ -169,7 +169,7 @@ def _measured_words(study: Study, measures: Measures) -> list[str]:
 
 def title_of(study: Study) -> str:
     """A title to begin with: the arm and what was done with it."""
-    robot, ran = study.robot.title, study.recording is not None and not study.recording.empty
+    robot, ran = tr(study.robot.title), study.recording is not None and not study.recording.empty
     if study.tracking is not None:
         title = path_title(study, study.tracking.path, ran=ran)
     elif ran:

@@ -221,7 +221,7 @@ def path_title(study: Study, path: Path, *, ran: bool) -> str:
     task = drawn_task(study)
     shape = None if task is None else shape_of(study.robot, task)
     if path.name == "line":
-        return tr(_ON_A_PATH["line"][ran], robot=study.robot.title)
+        return tr(_ON_A_PATH["line"][ran], robot=tr(study.robot.title))
     if isinstance(shape, TextShape):
-        return tr(_ON_A_PATH["text"][ran], robot=study.robot.title, path=shape.text)
-    return tr(_ON_A_PATH[""][ran], robot=study.robot.title, path=tr(path.title or path.name))
+        return tr(_ON_A_PATH["text"][ran], robot=tr(study.robot.title), path=shape.text)
+    return tr(_ON_A_PATH[""][ran], robot=tr(study.robot.title), path=tr(path.title or path.name))

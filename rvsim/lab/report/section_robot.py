@@ -66,7 +66,7 @@ def robot_section(study: Study, measures: Measures) -> Section:
 
 
 def _introduction(robot: Robot) -> str:
-    name = tr("{robot} ({family})", robot=robot.title, family=tr(robot.family)) if robot.family else robot.title
+    name = tr("{robot} ({family})", robot=tr(robot.title), family=tr(robot.family)) if robot.family else tr(robot.title)
     turning = int(robot.is_revolute.sum())
     sliding = robot.dof - turning
     sentences = []
@@ -88,7 +88,7 @@ def _introduction(robot: Robot) -> str:
                 "The {robot} has {count} joint that slides.",
                 "The {robot} has {count} joints that slide.",
                 sliding,
-                robot=robot.title if turning else name,
+                robot=tr(robot.title) if turning else name,
                 count=count,
             )
         )
@@ -109,7 +109,7 @@ def _dh_table(robot: Robot, measures: Measures) -> Table:
     note = tr("qᵢ: the joint variable.")
     if any(joint.dh_assumed for joint in robot.joints):
         note = " ".join((note, tr("{assumed} assumed: no source gives the row.", assumed=ASSUMED)))
-    return Table(tr("DH parameters of the {title}.", title=robot.title), columns, rows, note)
+    return Table(tr("DH parameters of the {title}.", title=tr(robot.title)), columns, rows, note)
 
 
 def _dh_row(index: int, joint: Joint, measures: Measures) -> tuple[Words, ...]:

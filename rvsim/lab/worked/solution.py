@@ -85,7 +85,7 @@ def worked_solution(
     book = Notebook(rows_of(form.chain), known, here, units)
     _WRITERS[type(form)](book, pose)
     ends = tuple(_with_verdict(book.figures, robot, end, result.branches) for end in book.ends)
-    return WorkedSolution(tr(_TITLE, robot=robot.title, family=tr(form.title)), tuple(book.steps), ends)
+    return WorkedSolution(tr(_TITLE, robot=tr(robot.title), family=tr(form.title)), tuple(book.steps), ends)
 
 
 def _with_verdict(figures: Figures, robot: Robot, end: WorkedBranch, branches: Sequence[Branch]) -> WorkedBranch:
