@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Literal, NamedTuple
 
 from PySide6.QtCore import QByteArray, QPointF, QRectF
@@ -32,12 +33,14 @@ from rvsim.lab.report.values import (
 
 FORMULA_SIZE = 10.5
 _SET_AT = 16.0  # what formulas are set at
+_ITEM = 18.0  # how far in an item stands: as wide as its mark
 _INDENT, _LABEL, _GAP, _APART = 20.0, 44.0, 9.0, 28.0
 _LABEL_ROOM, _LABEL_UP = 60.0, 7.4
 _PICTURE_SHARE = 0.82  # of the width
+_SMALLER = (0.92, 0.84, 0.76)  # of the height of a picture, where the page has no room for all of it
 _FACES = {"body": faces.BODY, "note": faces.NOTE, "lead": faces.LEAD, "own": faces.BODY}
 
-_LED_TO = (Formula, Formulas, Items)  # what the paragraph before speaks of
+_LED_TO = (Formulas, Items)  # what the paragraph before speaks of
 
 Draw = Callable[[QPainter, float, float], None]
 Float = Literal["", "figure", "table"]
@@ -51,18 +54,24 @@ class Strip(NamedTuple):
         draw: paints it with its upper left corner at x, y.
         above: the space above it, which the top of a page swallows.
         keep: not parted from the next one.
+        below: the space below it, which the end of a page swallows.
         again: what is repeated above it where a page begins with it.
         floats: which queue it may wait in for the next page, while what follows fills this one; "" for none.
         begins: a section begins with it, for which the foot of a page is no place.
+        goes_on: it belongs to what stands before it, so that no figure comes between.
+        smaller: what may stand for it, and for what is kept with it, where the page has no room for them.
     """
 
     height: float
     draw: Draw
     above: float = 0.0
     keep: bool = False
+    below: float = 0.0
     again: tuple[Strip, ...] = ()
     floats: Float = ""
     begins: bool = False
+    goes_on: bool = False
+    smaller: tuple[tuple[Strip, ...], ...] = ()
 
 
 def section_strips(section: Section, width: float) -> Iterator[Strip]:
@@ -70,19 +79,22 @@ def section_strips(section: Section, width: float) -> Iterator[Strip]:
     words = (Run(f"{section.number}  "), Run(section.title))
     title = Text(words, faces.SECTION, width)
     yield Strip(title.height, _section_title(section, title, width), 26.0, keep=True, begins=True)
+    held = False
     for block, following in zip(section.blocks, (*section.blocks[1:], None), strict=True):
+        goes_on, held = held, _belong_together(block, following)
         strips = list(block_strips(block, width))
-        if _belong_together(block, following):
+        if held:
             strips[-1] = strips[-1]._replace(keep=True)
-        yield from strips
+        for number, strip in enumerate(strips):
+            yield strip._replace(goes_on=goes_on or number > 0)
 
 
 def _belong_together(block: Block, following: Block | None) -> bool:
-    """What a paragraph leads to, formulas that are compared, and what is remarked on a formula."""
+    """What a paragraph leads to, formulas that follow from each other, and what is remarked on a formula."""
     if isinstance(following, Paragraph):
         return isinstance(block, Formula) and following.role == "note"
-    if isinstance(block, Formula) and isinstance(following, Formula):
-        return bool(block.label and following.label)
+    if isinstance(following, Formula):
+        return isinstance(block, Paragraph | Formula)
     return isinstance(block, Paragraph) and isinstance(following, _LED_TO)
 
 
@@ -134,12 +146,15 @@ def _line(text: Text, number: int, left: float) -> Draw:
 
 
 def _items(block: Items, width: float) -> Iterator[Strip]:
+    """The first two items stay together, and the last two."""
     marks = block.marks or (Run("•"),) * len(block.items)
-    indent = 15.0
-    for mark, item in zip(marks, block.items, strict=True):
-        sign = Text(mark, faces.BODY, indent)
-        for number, strip in enumerate(text_strips(item, faces.BODY, width, above=3.0, indent=indent)):
-            yield strip if number else strip._replace(draw=_both(sign, aside(width, 3.0, indent), 0.0, strip.draw))
+    for number, (mark, item) in enumerate(zip(marks, block.items, strict=True)):
+        sign = Text(mark, faces.BODY, _ITEM)
+        strips = list(text_strips(item, faces.BODY, width, above=3.0, indent=_ITEM))
+        strips[0] = strips[0]._replace(draw=_both(sign, aside(width, 3.0, sign.room), 0.0, strips[0].draw))
+        if number + 1 < len(block.items) and number in (0, len(block.items) - 2):
+            strips[-1] = strips[-1]._replace(keep=True)
+        yield from strips
 
 
 def _both(sign: Text, left: float, down: float, rest: Draw) -> Draw:
@@ -248,18 +263,20 @@ def _formula_line(begin: float, line: list[Set], gap: float, *, keep: bool = Fal
 
 
 def _figure(block: Figure, width: float) -> Iterator[Strip]:
-    """Pictures with the caption below them, in one piece."""
+    """Pictures with the caption below them, in one piece; smaller ones may stand for them."""
+    first, *others = _pictures(block, width, 1.0)
+    yield first._replace(smaller=tuple(tuple(_pictures(block, width, share)) for share in _SMALLER))
+    yield from others
+
+
+def _pictures(block: Figure, width: float, share: float) -> Iterator[Strip]:
+    """The same with pictures that are lower."""
     for number, picture in enumerate(block.pictures):
         above = 14.0 if number == 0 else 8.0
-        strip = _chart(picture, width) if isinstance(picture, Chart) else _picture(picture, width)
+        strip = _chart(picture, width, share) if isinstance(picture, Chart) else _picture(picture, width, share)
         yield strip._replace(above=above, keep=True, floats="figure")
     caption = Text(caption_runs(block.caption), faces.CAPTION, width)
-    yield Strip(caption.height, caption.draw, 6.0, keep=True)
-    yield Strip(0.0, _nothing, 8.0)
-
-
-def _nothing(_painter: QPainter, _x: float, _y: float) -> None:
-    pass
+    yield Strip(caption.height, caption.draw, 6.0, below=8.0)
 
 
 def caption_runs(caption: str) -> tuple[Run, ...]:
@@ -268,18 +285,20 @@ def caption_runs(caption: str) -> tuple[Run, ...]:
     return (Run(f"{name}:", "bold"), Run(f" {text}")) if colon else runs(caption)
 
 
-def _chart(chart: Chart, width: float) -> Strip:
-    drawing = QSvgRenderer(QByteArray(chart_svg(chart, faces.sans_family()).encode()))
+def _chart(chart: Chart, width: float, share: float) -> Strip:
+    """Curves are lower, their letters as large as ever."""
+    chart = replace(chart, height=share * chart.height)
     height = chart_height(chart)
 
     def draw(painter: QPainter, x: float, y: float) -> None:
+        drawing = QSvgRenderer(QByteArray(chart_svg(chart, faces.sans_family()).encode()))
         drawing.render(painter, QRectF(x, y, width, height))
 
     return Strip(height, draw)
 
 
-def _picture(picture: ScenePicture, width: float) -> Strip:
-    wide = _PICTURE_SHARE * width
+def _picture(picture: ScenePicture, width: float, share: float) -> Strip:
+    wide = _PICTURE_SHARE * share * width
     height = wide * picture.height / picture.width
 
     def draw(painter: QPainter, x: float, y: float) -> None:

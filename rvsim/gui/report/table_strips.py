@@ -47,10 +47,10 @@ def table_strips(table: Table, width: float) -> Iterator[Strip]:
         head = _rule(grid)
         yield head._replace(above=4.0, keep=True)
     yield from _rows(table, grid, head)
-    yield Strip(_THICK, _rule(grid).draw, 0.0, keep=bool(table.note))
-    if table.note:
-        yield from text_strips(table.note, faces.NOTE, width, above=3.0)
-    yield Strip(0.0, lambda *_: None, 8.0)
+    note = list(text_strips(table.note, faces.NOTE, width, above=3.0)) if table.note else []
+    *kept, last = [_rule(grid), *note]
+    yield from (strip._replace(keep=True) for strip in kept)
+    yield last._replace(below=8.0)
 
 
 def _is_head(head: Words) -> bool:

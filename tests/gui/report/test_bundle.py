@@ -15,8 +15,6 @@ from rvsim import load_robot
 from rvsim.errors import FileWriteError
 from rvsim.gui.report.artist import PageArtist, path_data
 from rvsim.gui.report.bundle import Order, free_folder, write_bundle
-from rvsim.gui.report.pages import paginated
-from rvsim.gui.report.strips import Strip
 from rvsim.gui.report.table_strips import _grid
 from rvsim.gui.report.typography import BODY, Text, aside
 from rvsim.lab import default_experiment
@@ -98,54 +96,6 @@ def test_a_disk_that_is_full_leaves_nothing_behind(qapp, tmp_path: Path, monkeyp
     with pytest.raises(FileWriteError, match="no space left"):
         list(work)
     assert list(tmp_path.iterdir()) == []
-
-
-# --- pages ---------------------------------------------------------------------------------------------------------
-
-
-def strip(height: float, **more: object) -> Strip:
-    return Strip(height, lambda *_: None, **more)
-
-
-def test_what_belongs_together_is_not_parted_and_nothing_leaves_the_page() -> None:
-    strips = [strip(30.0, above=5.0, keep=number % 3 != 2) for number in range(30)]
-    pages = paginated(strips, 200.0)
-    assert sum(len(page) for page in pages) == 30
-    for page in pages:
-        assert len(page) % 3 == 0
-        assert page[0].y == 0.0
-        assert page[-1].y + page[-1].strip.height <= 200.0
-
-
-def test_a_table_that_goes_on_has_its_head_again() -> None:
-    head = strip(10.0)
-    rows = [strip(20.0, again=(head,)) for _ in range(20)]
-    pages = paginated([head._replace(keep=True), *rows], 100.0)
-    assert len(pages) > 3
-    assert all(page[0].strip.height == 10.0 for page in pages)
-
-
-def test_a_figure_that_does_not_fit_waits_while_the_text_goes_on() -> None:
-    figure = strip(60.0, floats="figure")
-    pages = paginated([strip(50.0), figure, *(strip(10.0) for _ in range(8))], 100.0)
-    assert [len(page) for page in pages] == [6, 4]
-    assert pages[1][0].strip is figure
-
-
-def test_a_section_begins_neither_at_the_foot_of_a_page_nor_far_before_the_figures_of_the_last_one() -> None:
-    title = strip(10.0, keep=True, begins=True)
-    pages = paginated([strip(85.0), title, strip(10.0)], 100.0)
-    assert [len(page) for page in pages] == [1, 2]
-    figures = [strip(60.0, floats="figure") for _ in range(2)]
-    pages = paginated([strip(50.0), *figures, title, strip(10.0)], 100.0)
-    assert [page[0].strip.floats for page in pages] == ["", "figure", "figure"]
-    assert pages[2][1].strip.begins
-
-
-def test_a_table_does_not_wait_for_a_figure() -> None:
-    figure, small = strip(60.0, floats="figure"), strip(20.0, floats="table")
-    pages = paginated([strip(50.0), figure, small, small], 100.0)
-    assert [[placed.strip.floats for placed in page] for page in pages] == [["", "table", "table"], ["figure"]]
 
 
 # --- formulas of the page ------------------------------------------------------------------------------------------
