@@ -35,6 +35,7 @@ FORMULA_SIZE = 10.5
 _SET_AT = 16.0  # what formulas are set at
 _ITEM = 18.0  # how far in an item stands: as wide as its mark
 _INDENT, _LABEL, _GAP, _APART = 20.0, 44.0, 9.0, 28.0
+_LEAST_FORMULA = 0.85  # of their size is what formulas in columns keep
 _LABEL_ROOM, _LABEL_UP = 60.0, 7.4
 _PICTURE_SHARE = 0.82  # of the width
 _SMALLER = (0.92, 0.84, 0.76)  # of the height of a picture, where the page has no room for all of it
@@ -206,9 +207,9 @@ def _formula(block: Formula, width: float) -> Iterator[Strip]:
         set_formula(part, FORMULA_SIZE, width - left - (_INDENT if number else 0.0))
         for number, part in enumerate(block.parts)
     ]
-    lines = _flowed(parts, width - left, _GAP, _INDENT)
+    lines = _flowed(parts, width - left)
     begins = [left + (_INDENT if number else 0.0) for number in range(len(lines))]
-    shift = _shift(lines, begins, _GAP, width)
+    shift = _shift(lines, begins, width)
     label = Text(block.label.strip(), faces.NOTE, _LABEL_ROOM)
     for number, line in enumerate(lines):
         strip = _formula_line(begins[number] + shift, line, _GAP, keep=number < len(lines) - 1)
@@ -218,43 +219,47 @@ def _formula(block: Formula, width: float) -> Iterator[Strip]:
 
 
 def _formulas(block: Formulas, width: float) -> Iterator[Strip]:
-    parts = [set_formula(part, FORMULA_SIZE, width - _INDENT) for part in block.parts]
-    lines = _flowed(parts, width - _INDENT, _APART, 0.0)
-    begin = _INDENT + _shift(lines, [_INDENT] * len(lines), _APART, width)
-    for line in lines:
-        yield _formula_line(begin, line, _APART)
+    """In columns as wide as the widest of them, and a little smaller where one more column fits then."""
+    room = width - _INDENT + _APART
+    widest = max(set_formula(part, FORMULA_SIZE, width - _INDENT).width for part in block.parts)
+    count = min(max(1, int(room / (_LEAST_FORMULA * widest + _APART))), len(block.parts))
+    share = min(1.0, (room / count - _APART) / widest)
+    parts = [set_formula(part, share * FORMULA_SIZE, width - _INDENT) for part in block.parts]
+    column = share * widest
+    begin = aside(width, _INDENT, count * (column + _APART) - _APART)
+    for number in range(0, len(parts), count):
+        yield _formula_line(begin, parts[number : number + count], _APART, column=column)
 
 
-def _shift(lines: list[list[Set]], begins: list[float], gap: float, width: float) -> float:
+def _shift(lines: list[list[Set]], begins: list[float], width: float) -> float:
     """How far lines of formulas move together to where reading begins; each of them is read from the left."""
-    if not lines:
-        return 0.0
-    ends = [begin + sum(part.width + gap for part in line) - gap for begin, line in zip(begins, lines, strict=True)]
+    ends = [begin + sum(part.width + _GAP for part in line) - _GAP for begin, line in zip(begins, lines, strict=True)]
     return aside(width, min(begins), max(ends) - min(begins)) - min(begins)
 
 
-def _flowed(parts: list[Set], width: float, gap: float, further: float) -> list[list[Set]]:
+def _flowed(parts: list[Set], width: float) -> list[list[Set]]:
     """Parts in lines; those after the first begin further in."""
     lines: list[list[Set]] = []
     room = 0.0
     for part in parts:
-        if lines and part.width + gap <= room:
+        if lines and part.width + _GAP <= room:
             lines[-1].append(part)
-            room -= part.width + gap
+            room -= part.width + _GAP
         else:
-            room = width - part.width - (further if lines else 0.0)
+            room = width - part.width - (_INDENT if lines else 0.0)
             lines.append([part])
     return lines
 
 
-def _formula_line(begin: float, line: list[Set], gap: float, *, keep: bool = False) -> Strip:
+def _formula_line(begin: float, line: list[Set], gap: float, *, column: float = 0.0, keep: bool = False) -> Strip:
+    """Formulas on one baseline, each in a column of that width, if one is given."""
     ascent, descent = max(part.ascent for part in line), max(part.descent for part in line)
 
     def draw(painter: QPainter, x: float, y: float) -> None:
         at = x + begin
         for part in line:
             part.draw(painter, at, y + ascent)
-            at += part.width + gap
+            at += max(part.width, column) + gap
 
     return Strip(ascent + descent, draw, 6.0, keep)
 

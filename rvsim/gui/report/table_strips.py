@@ -13,8 +13,9 @@ from rvsim.gui.report.strips import Set, Strip, caption_runs, set_formula, text_
 from rvsim.gui.report.typography import RULE, Face, Text, aside, from_right, text_width
 from rvsim.lab.report.values import Column, Run, Table, Words, runs
 
-_PAD, _LEAST_PAD = 7.0, 2.5  # at each side of a cell
+_PAD, _FAIR_PAD, _LEAST_PAD = 7.0, 4.0, 2.5  # at each side of a cell
 _LEAST_SCALE = 0.74
+_BROKEN = 0.55  # of the width that its text has in one line is enough for a column that may break it
 _SPREAD = 0.85  # of the page: a table as wide as that takes all of it
 _MATH_SIZE = 9.5
 _THICK, _THIN = 1.0, 0.5
@@ -78,6 +79,7 @@ def _line(painter: QPainter, x: float, y: float, width: float, thickness: float)
 
 def _grid(table: Table, width: float) -> _Grid:
     natural = [_natural(index, column, table) for index, column in enumerate(table.columns)]
+    natural = _broken(natural, table.columns, width - 2.0 * _FAIR_PAD * len(natural))
     pad = _PAD
     while sum(natural) + 2.0 * pad * len(natural) > width and pad > _LEAST_PAD:
         pad -= 0.5
@@ -115,6 +117,15 @@ def _math(words: Words) -> str:
     """The LaTeX of a cell that is a formula."""
     first = runs(words)[0] if runs(words) else Run("")
     return first.text if first.style == "math" else ""
+
+
+def _broken(widths: list[float], columns: tuple[Column, ...], most: float) -> list[float]:
+    """Text that may stand in two lines does so before all letters become smaller."""
+    over, count = max(0.0, sum(widths) - most), sum(column.wide for column in columns)
+    return [
+        max(each - over / count, _BROKEN * each) if column.wide else each
+        for each, column in zip(widths, columns, strict=True)
+    ]
 
 
 def _narrowed(widths: list[float], columns: tuple[Column, ...], over: float) -> list[float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Iterator
 from functools import cache
@@ -30,6 +31,8 @@ INK, MUTED, RULE = QColor("#1D2733"), QColor("#566373"), QColor("#1D2733")
 ACCENT = QColor("#2F55D4")
 _COLORS = {"good": QColor("#00664B"), "warning": QColor("#8A4B00"), "bad": QColor("#B3261E"), "muted": MUTED}
 _LOWERED: Style = "index"  # what is left of such a run is its index alone
+_LOWER = 6.0  # [%] of the height of a line, which is large in fonts of formulas
+_COMPARED = re.compile(" ([=≥≤≈]) ")
 _ARABIC = "Noto Sans Arabic UI"  # which comes with rvsim, and has no other letters
 _SANS = ["Helvetica Neue", "Helvetica", "Arial", "Liberation Sans", "Nimbus Sans", _ARABIC, "DejaVu Sans"]
 _SERIF = ["Times New Roman", "Liberation Serif", "Nimbus Roman", _ARABIC, "DejaVu Serif"]
@@ -162,10 +165,10 @@ class Text:
 
 
 def _letters(words: Words) -> Iterator[Run]:
-    """Runs of letters: an index is one of its own, lower and smaller."""
+    """Runs of letters: an index is one of its own, lower and smaller; what is compared stays on one line."""
     for run in runs(words):
         if run.style != "index":
-            yield run
+            yield Run(_COMPARED.sub("\u00a0\\1\u00a0", run.text), run.style)
             continue
         letter, _, index = run.text.partition("_")
         yield Run(letter)
@@ -188,6 +191,7 @@ def _formats(pieces: list[Run], face: Face) -> list[QTextLayout.FormatRange]:
             look.setFont(font(face, run.style))
             if run.style == _LOWERED:
                 look.setVerticalAlignment(QTextCharFormat.VerticalAlignment.AlignSubScript)
+                look.setSubScriptBaseline(_LOWER)
             look.setForeground(_COLORS.get(run.style, face.color))
             made.format = look
             formats.append(made)

@@ -13,6 +13,7 @@ from rvsim.robot.arrays import FloatArray
 
 WIDTH = 453.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 50.0, 8.0, 18.0, 30.0
+_UNIT_LEFT = 24.0
 _LEGEND_LEFT, _LEGEND_ROW, _LEGEND_STROKE = 24.0, 12.0, 18.0
 _DASHES = ("", *(f' stroke-dasharray="{d}"' for d in ("6 3", "2 2", "8 2.5 2 2.5", "8 2 2 2 2 2")))
 _INK, _MUTED, _GRID = "#1D2733", "#4A5665", "#DFE5ED"
@@ -139,9 +140,10 @@ def _path(x: FloatArray, y: FloatArray) -> str:
 
 
 def _titles(chart: Chart) -> Iterator[str]:
-    yield _text(_LEFT, 10.0, chart.title, more=' font-weight="bold" font-size="8.5"')
+    left = max(_LEFT, _UNIT_LEFT + _name_width(chart.y_title) + 8.0)
+    yield _text(left, 10.0, chart.title, more=' font-weight="bold" font-size="8.5"')
     yield _text(WIDTH - _RIGHT, chart.height - 8.0, chart.x_title, "end", _MUTED)
-    yield _text(WIDTH - _RIGHT, 10.0, chart.y_title, "end", _MUTED)
+    yield _text(_UNIT_LEFT, 10.0, chart.y_title, color=_MUTED)
 
 
 def _legend(chart: Chart) -> Iterator[tuple[int, float, Curve]]:

@@ -30,7 +30,7 @@ td svg { vertical-align: middle; }
 figure { margin: 24px 0; } figure img, figure > svg { width: 100%; height: auto; display: block; }
 figcaption { font-size: 14px; color: #1d2733; margin: 6px 0; }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; border-top: 1.6px solid #1d2733; border-bottom: 1.6px solid #1d2733;
+table { border-collapse: collapse; min-width: 60%; border-top: 1.6px solid #1d2733; border-bottom: 1.6px solid #1d2733;
   font-size: 15px; font-variant-numeric: tabular-nums; }
 th { font-size: 13px; font-weight: 600; border-bottom: .8px solid #1d2733; }
 th, td { padding: 4px 7px; white-space: nowrap; vertical-align: baseline; }

@@ -89,7 +89,7 @@ def _branches(study: Study, measures: Measures, solution: WorkedSolution) -> Ite
 def _branch_table(study: Study, measures: Measures, found: tuple[Branch, ...]) -> Table:
     joints = tuple(Column(f"q{subscript(i + 1)} [{measures.joint(i).unit}]") for i in range(study.robot.dof))
     columns = (
-        Column("", "center"), Column(tr("Branch"), "left"), *joints, Column(tr("within"), "center"),
+        Column("", "center"), Column(tr("Branch"), "left", wide=True), *joints, Column(tr("within"), "center"),
         Column(tr("margin")), Column(tr("residual")), Column("w"),
     )  # fmt: skip
     rows = tuple(_branch_row(number, study, measures, branch) for number, branch in enumerate(found, 1))

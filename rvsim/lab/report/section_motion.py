@@ -8,10 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from rvsim.lab.report.chart import DASHES, Chart, Curve, Limit
-from rvsim.lab.report.figures import Measure, Measures, number
+from rvsim.lab.report.figures import Measure, Measures, number, scientific
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Figure, Paragraph, Section
-from rvsim.language import tr, tr_later
+from rvsim.language import left_to_right, tr, tr_later
 from rvsim.playback.curves import Curves
 from rvsim.robot.arrays import FloatArray
 from rvsim.scene.palette import luminance
@@ -31,6 +31,7 @@ _OFF_WORDS = {
 }
 _TIME = tr_later("time [s]")
 _LIGHTEST = 0.4  # luminance of a curve on white
+_LEAST_SHOWN = 0.01  # what is less needs powers of ten
 # A level deviation of rounding is written in the unit that shows it.
 _FINER = (("mm", 1e3), ("µm", 1e6), ("nm", 1e9), ("pm", 1e12), ("fm", 1e15))
 
@@ -129,8 +130,15 @@ def between_words(curves: Curves | None, measures: Measures) -> str:
     deviation = None if curves is None else curves.deviation
     if deviation is None or not np.isfinite(deviation).any():
         return ""
+    value, unit = between(deviation, measures)
+    return left_to_right(f"{value} {unit}")
+
+
+def between(deviation: FloatArray, measures: Measures) -> tuple[str, str]:
+    """The largest of the deviations [m] that are known, and its unit."""
     factor, unit = fine_unit(deviation, measures)
-    return Measure(factor, unit, 2).amount(float(np.nanmax(deviation)))
+    largest = float(np.nanmax(deviation)) * factor
+    return number(largest, 2) if largest >= _LEAST_SHOWN or largest == 0.0 else scientific(largest), unit
 
 
 def fine_unit(values: FloatArray, measures: Measures) -> tuple[float, str]:
@@ -138,7 +146,7 @@ def fine_unit(values: FloatArray, measures: Measures) -> tuple[float, str]:
     length = measures.length
     known = np.abs(values[np.isfinite(values)])
     largest = float(known.max(initial=0.0))
-    if measures.robot.length_unit == "unit" or largest * length.factor >= 0.01 or largest == 0.0:
+    if measures.robot.length_unit == "unit" or largest * length.factor >= _LEAST_SHOWN or largest == 0.0:
         return length.factor, length.unit
     unit, factor = next(((name, factor) for name, factor in _FINER if largest * factor >= 0.1), ("fm", 1e15))
     return factor, unit

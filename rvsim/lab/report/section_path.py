@@ -13,7 +13,7 @@ from rvsim.lab.report.chart import Chart, Curve
 from rvsim.lab.report.figures import ASSUMED, DASH, Measures, number, scientific
 from rvsim.lab.report.path_words import path_formulas, path_words
 from rvsim.lab.report.pictures import path_picture
-from rvsim.lab.report.section_motion import fine_unit
+from rvsim.lab.report.section_motion import between
 from rvsim.lab.report.section_robot import unit_columns
 from rvsim.lab.report.study import Study
 from rvsim.lab.report.values import Block, Column, Figure, Items, Paragraph, Run, Section, Table, Words
@@ -133,8 +133,7 @@ def _between(study: Study, measures: Measures) -> list[tuple[Words, ...]]:
     deviation = None if study.curves is None else study.curves.deviation
     if deviation is None or not np.isfinite(deviation).any():
         return []
-    factor, unit = fine_unit(deviation, measures)
-    return [(tr("Largest deviation of the motion"), number(float(np.nanmax(deviation)) * factor, 2), unit)]
+    return [(tr("Largest deviation of the motion"), *between(deviation, measures))]
 
 
 def _deviation(

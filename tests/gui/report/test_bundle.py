@@ -15,12 +15,13 @@ from rvsim import load_robot
 from rvsim.errors import FileWriteError
 from rvsim.gui.report.artist import PageArtist, path_data
 from rvsim.gui.report.bundle import Order, free_folder, write_bundle
+from rvsim.gui.report.strips import block_strips
 from rvsim.gui.report.table_strips import _grid
 from rvsim.gui.report.typography import BODY, Text, aside
 from rvsim.lab import default_experiment
 from rvsim.lab.repairs import motion_of, path_of
 from rvsim.lab.report import Cover, Study
-from rvsim.lab.report.values import Column, Table
+from rvsim.lab.report.values import Column, Formulas, Table
 from rvsim.language import speak
 from rvsim.motion import track
 
@@ -114,6 +115,25 @@ def test_outlines_are_paths_of_svg(qapp) -> None:
     path.cubicTo(1.0, 2.0, 3.0, 4.0, 5.0, 6.5)
     path.lineTo(7.0, 8.0)
     assert path_data(path) == "M0 1C1 2 3 4 5 6.5L7 8"
+
+
+# --- tables and matrices -------------------------------------------------------------------------------------------
+
+
+def test_text_that_may_break_does_so_before_all_letters_become_smaller(qapp) -> None:
+    long, numbers = "shoulder on the right, wrist flipped", ("123.4",) * 8
+    for wide in (True, False):
+        columns = (Column("", "left", wide=wide), *(Column("q"),) * 8)
+        grid = _grid(Table("", columns, ((long, *numbers),)), 340.0)
+        assert (grid.scale == 1.0) == wide
+        assert grid.lefts[-1] + grid.widths[-1] <= 340.0
+
+
+def test_formulas_side_by_side_stand_below_each_other_and_inside_the_page(qapp) -> None:
+    matrix = "A = \\begin{bmatrix} -0.7642 & -0.6450 & 0.0000 & 299.70 \\end{bmatrix}"
+    for count, lines in ((1, 1), (4, 2), (5, 3)):
+        strips = list(block_strips(Formulas((matrix,) * count), 453.0))
+        assert len(strips) == lines
 
 
 # --- from right to left --------------------------------------------------------------------------------------------

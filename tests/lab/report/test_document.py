@@ -19,8 +19,11 @@ from rvsim.lab.repairs import motion_of, path_of
 from rvsim.lab.report import PARTS, Cover, Document, Study, build, html_page, parts_of, title_of
 from rvsim.lab.report.chart import Chart, Curve, Limit, axis, thinned
 from rvsim.lab.report.chart_svg import chart_svg
+from rvsim.lab.report.figures import Measures
+from rvsim.lab.report.section_motion import between
 from rvsim.lab.report.values import Figure, Formula, Formulas, Paragraph, ScenePicture, Table, plain, with_indices
 from rvsim.lab.script import tracking_script
+from rvsim.lab.sentences import Units
 from rvsim.lab.sources import errata
 from rvsim.lab.tables import tracking_csv
 from rvsim.language import speak
@@ -133,6 +136,11 @@ def test_a_line_is_described_by_its_ends_and_the_summary_tells_the_deviation_bet
         assert ",\u00a0".join(f"{value:.1f}" for value in point).replace("-", "−") in words(document, "The path")
     between = str(table(document, "in numbers").rows[-1][1])
     assert f"at most {between} " in words(document, "Summary")
+
+
+def test_a_small_deviation_in_units_that_nobody_knows_is_no_zero() -> None:
+    deviation, measures = np.array([np.nan, 3.2e-5]), Measures(load_robot("rrrp"), Units())
+    assert between(deviation, measures) == ("3.2·10⁻⁵", "units")
 
 
 @pytest.mark.parametrize("counted", [True, False])
