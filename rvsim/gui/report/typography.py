@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import warnings
 from collections.abc import Iterator
 from functools import cache
@@ -23,7 +22,7 @@ from PySide6.QtGui import (
 )
 
 from rvsim.gui.text_box import wrap_mode
-from rvsim.lab.report.values import Run, Style, Words, runs
+from rvsim.lab.report.values import Run, Style, Words, runs, unbroken
 from rvsim.language import has_right_to_left, language
 
 FINE = 20.0  # text is set in twentieths of a point, so that rounding is not seen
@@ -32,7 +31,6 @@ ACCENT = QColor("#2F55D4")
 _COLORS = {"good": QColor("#00664B"), "warning": QColor("#8A4B00"), "bad": QColor("#B3261E"), "muted": MUTED}
 _LOWERED: Style = "index"  # what is left of such a run is its index alone
 _LOWER = 6.0  # [%] of the height of a line, which is large in fonts of formulas
-_COMPARED = re.compile(" ([=≥≤≈]) ")
 _ARABIC = "Noto Sans Arabic UI"  # which comes with rvsim, and has no other letters
 _SANS = ["Helvetica Neue", "Helvetica", "Arial", "Liberation Sans", "Nimbus Sans", _ARABIC, "DejaVu Sans"]
 _SERIF = ["Times New Roman", "Liberation Serif", "Nimbus Roman", _ARABIC, "DejaVu Serif"]
@@ -165,10 +163,10 @@ class Text:
 
 
 def _letters(words: Words) -> Iterator[Run]:
-    """Runs of letters: an index is one of its own, lower and smaller; what is compared stays on one line."""
+    """Runs of letters: an index is one of its own, lower and smaller."""
     for run in runs(words):
         if run.style != "index":
-            yield Run(_COMPARED.sub("\u00a0\\1\u00a0", run.text), run.style)
+            yield Run(unbroken(run.text), run.style)
             continue
         letter, _, index = run.text.partition("_")
         yield Run(letter)

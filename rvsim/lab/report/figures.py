@@ -17,7 +17,7 @@ from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 MINUS, DASH = "\u2212", "–"
 ASSUMED = "†"  # behind a number that no source gives
-_TYPED_MINUS = re.compile(r"(?:(?<=\s)|(?<=\u2066))-(?=\s?\d)|(?<=\()-(?=\d)|^-(?=\d)")
+_TYPED_MINUS = re.compile(r"(?:(?<=\s)|(?<=\u2066))-(?=\s?(?:\d|[qxyz]\d?\b))|(?<=\()-(?=\d)|^-(?=\d)")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -103,7 +103,7 @@ def number(value: float, decimals: int) -> str:
 
 
 def with_minus(text: str) -> str:
-    """What somebody has typed, with true minus signs before numbers: "-90" and "q4 - 90"."""
+    """What somebody has typed, with true minus signs before numbers: "-90", "q4 - 90" and "-x"."""
     return _TYPED_MINUS.sub(MINUS, text)
 
 

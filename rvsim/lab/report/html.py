@@ -25,6 +25,7 @@ from rvsim.lab.report.values import (
     Table,
     Words,
     runs,
+    unbroken,
 )
 from rvsim.language import has_right_to_left, in_its_order, language, signs_in_order, tr
 
@@ -102,9 +103,9 @@ def _run(run: Run, artist: Artist) -> str:
         letter, _, index = run.text.partition("_")
         return f'<span dir="ltr">{escape(letter)}<sub>{escape(index)}</sub></span>'
     tag = {"": "", "bold": "b", "code": "code"}.get(run.style)
+    text = escape(in_its_order(run.text if run.style == "code" else unbroken(run.text)))
     if tag is None:
-        return f'<span class="{run.style}">{escape(in_its_order(run.text))}</span>'
-    text = escape(in_its_order(run.text))
+        return f'<span class="{run.style}">{text}</span>'
     return f"<{tag}>{text}</{tag}>" if tag else text
 
 

@@ -45,6 +45,14 @@ def with_indices(text: str, style: Style = "") -> Runs:
     return tuple(Run(piece, "index" if number % 2 else style) for number, piece in enumerate(pieces) if piece)
 
 
+_BOUND = re.compile(r" (?=[=≥≤≈] )|(?<=[=≥≤≈]) |(?<=\d) (?=(?:%|[nµm]?m|[mµ]?s|k?g|N m|N|rad)(?!\w))")
+
+
+def unbroken(text: str) -> str:
+    """What is compared stays on one line, and a number with its unit."""
+    return _BOUND.sub("\u00a0", text)
+
+
 def plain(words: Words) -> str:
     """Its letters alone."""
     return "".join(run.text for run in runs(words))

@@ -74,6 +74,8 @@ def test_a_folder_that_cannot_be_is_told(dialog: ReportDialog, qtbot: QtBot, tmp
 
 def test_closing_in_the_middle_leaves_nothing(dialog: ReportDialog, qtbot: QtBot, tmp_path: Path) -> None:
     dialog.start()
-    qtbot.waitUntil(lambda: any(path.name.startswith(".made") for path in tmp_path.iterdir()))
+    with qtbot.waitSignal(dialog.progress.valueChanged):
+        pass
+    assert any(path.name.startswith(".made") for path in tmp_path.iterdir())
     dialog.close()
     assert not any("made" in path.name for path in tmp_path.iterdir())

@@ -19,9 +19,19 @@ from rvsim.lab.repairs import motion_of, path_of
 from rvsim.lab.report import PARTS, Cover, Document, Study, build, html_page, parts_of, title_of
 from rvsim.lab.report.chart import Chart, Curve, Limit, axis, thinned
 from rvsim.lab.report.chart_svg import chart_svg
-from rvsim.lab.report.figures import Measures
+from rvsim.lab.report.figures import Measures, with_minus
 from rvsim.lab.report.section_motion import between
-from rvsim.lab.report.values import Figure, Formula, Formulas, Paragraph, ScenePicture, Table, plain, with_indices
+from rvsim.lab.report.values import (
+    Figure,
+    Formula,
+    Formulas,
+    Paragraph,
+    ScenePicture,
+    Table,
+    plain,
+    unbroken,
+    with_indices,
+)
 from rvsim.lab.script import tracking_script
 from rvsim.lab.sentences import Units
 from rvsim.lab.sources import errata
@@ -136,6 +146,11 @@ def test_a_line_is_described_by_its_ends_and_the_summary_tells_the_deviation_bet
         assert ",\u00a0".join(f"{value:.1f}" for value in point).replace("-", "−") in words(document, "The path")
     between = str(table(document, "in numbers").rows[-1][1])
     assert f"at most {between} " in words(document, "Summary")
+
+
+def test_numbers_keep_their_units_and_comparisons_their_sides() -> None:
+    assert unbroken("62 % of 5 mm and 3 more, w ≥ 0") == "62\u00a0% of 5\u00a0mm and 3 more, w\u00a0≥\u00a00"
+    assert with_minus("q1 - q4, -x and a - b") == "q1 − q4, −x and a - b"
 
 
 def test_a_small_deviation_in_units_that_nobody_knows_is_no_zero() -> None:
