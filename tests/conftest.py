@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import runpy
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -33,6 +34,14 @@ def qapp_args() -> list[str]:
 def _own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Settings, logs and robot files go to a folder of this test, never to the user's."""
     monkeypatch.setenv("RVSIM_USER_FOLDER", str(tmp_path / "rvsim-user"))
+
+
+@pytest.fixture
+def quick_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The seconds of arms on a wire are shorter; whoever uses it closes its arms before it ends."""
+    quick = runpy.run_path(str(Path(__file__).with_name("quick_time.py")))
+    for reader in quick["READERS"]:
+        monkeypatch.setattr(reader, "clock", quick["QuickTime"]())
 
 
 @pytest.fixture(scope="session")

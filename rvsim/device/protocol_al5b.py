@@ -8,7 +8,6 @@ Bytes take ten bits each at the port's baud rate, and the arm lives in real time
 from __future__ import annotations
 
 import threading
-import time
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from serial.serialutil import PortNotOpenError, SerialBase, SerialException, SerialTimeoutException, to_bytes
@@ -16,7 +15,7 @@ from serial.serialutil import PortNotOpenError, SerialBase, SerialException, Ser
 from rvsim.device.link.kept import leave_board, take_board
 from rvsim.device.link.options import ArmOptions, options_of
 from rvsim.device.link.pacing import PacedArm
-from rvsim.device.link.real_time import RealTime
+from rvsim.device.link.real_time import RealTime, WallClock
 from rvsim.errors import RvsimError
 from rvsim.language import left_to_right, tr
 
@@ -25,18 +24,6 @@ if TYPE_CHECKING:
 
 _OUTPUT_BUFFER = 4096  # bytes, as a serial driver of an operating system has
 _LOOK_AGAIN = 0.001  # [s], while somebody waits
-
-
-class WallClock:
-    """Real time; tests have another one."""
-
-    def now(self) -> float:
-        """[s] since some moment."""
-        return time.monotonic()
-
-    def wait(self, changed: threading.Condition, seconds: float) -> None:
-        """Let others work until they have changed something, or so much time has passed [s]."""
-        changed.wait(seconds)
 
 
 class Serial(SerialBase):  # type: ignore[misc]

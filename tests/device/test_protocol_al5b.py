@@ -14,11 +14,12 @@ import serial
 
 import rvsim.device
 from rvsim.device import protocol_al5b
+from rvsim.device.link.real_time import WallClock
 from rvsim.device.virtual.faults import Fault, Faults
 from rvsim.resources import resource
 
 
-class TestTime(protocol_al5b.WallClock):
+class TestTime(WallClock):
     """Passes where somebody waits."""
 
     __test__ = False
@@ -29,7 +30,7 @@ class TestTime(protocol_al5b.WallClock):
     def now(self) -> float:
         return self.time
 
-    def wait(self, changed: threading.Condition, seconds: float) -> None:
+    def wait(self, changed: threading.Condition | threading.Event, seconds: float) -> None:
         self.time += seconds
 
 

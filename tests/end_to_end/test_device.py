@@ -25,7 +25,7 @@ LONG_MS = 30_000
 
 
 @pytest.fixture
-def window(qtbot: QtBot) -> Iterator[MainWindow]:
+def window(qtbot: QtBot, quick_time: None) -> Iterator[MainWindow]:
     made = build_window(Preferences(), robot="al5b")
     qtbot.addWidget(made)
     made.show()

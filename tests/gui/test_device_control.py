@@ -64,7 +64,7 @@ class Desk:
 
 
 @pytest.fixture
-def desk(qtbot: QtBot) -> Iterator[Desk]:
+def desk(qtbot: QtBot, quick_time: None) -> Iterator[Desk]:
     made = Desk(qtbot)
     yield made
     made.device.close()

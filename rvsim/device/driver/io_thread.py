@@ -8,10 +8,9 @@ import logging
 import re
 import sys
 import threading
-import time
 from collections.abc import Callable, Sequence
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import serial
 from numpy.typing import ArrayLike
@@ -23,6 +22,7 @@ from rvsim.device.driver.core import DriverCore
 from rvsim.device.driver.languages import LanguageName
 from rvsim.device.driver.outbox import BITS
 from rvsim.device.driver.state import DriverState
+from rvsim.device.link.real_time import WallClock
 from rvsim.device.wire_log import WireLog
 from rvsim.language import left_to_right, tr
 from rvsim.playback.recording import Recording
@@ -59,6 +59,8 @@ class ArmDriver:
         RobotDefinitionError: the arm has no servos, or one that allows no value of its joint.
     """
 
+    clock: ClassVar[WallClock] = WallClock()
+
     def __init__(
         self,
         robot: Robot,
@@ -75,7 +77,7 @@ class ArmDriver:
         # One lock, and who holds it may take it again: a condition in `wait` may ask for something.
         self._lock, self._wake = threading.Condition(threading.RLock()), threading.Event()
         self._state = self._core.state
-        self._began = time.monotonic()
+        self._began = self.clock.now()
         self._port: Any = None
         self._arm: VirtualArm | None = None
         self._through = 0.0  # when what has been written will have gone over the wire [s]
@@ -229,7 +231,8 @@ class ArmDriver:
                 self._lose(
                     tr("Something went wrong inside the driver: {problem!r}. The port is closed.", problem=problem)
                 )
-            self._wake.wait(_TICK if self._state.phase not in ("disconnected", "lost") else _IDLE_TICK)
+            idle = self._state.phase in ("disconnected", "lost")
+            self.clock.wait(self._wake, _IDLE_TICK if idle else _TICK)
             self._wake.clear()
 
     def _turn(self) -> None:
@@ -260,9 +263,10 @@ class ArmDriver:
 
     def _exchange(self) -> None:
         self._write_urgent()
+        now = self.clock.now()  # before it listens: where this thread is held up after that, no answer is called late
         received = self._port.read(_MOST_READ)
         with self._lock:
-            out = self._core.process(time.monotonic() - self._began, received)
+            out = self._core.process(now - self._began, received)
             self._publish()
         # A stop that came just now threw away what waits: these bytes too.
         if not self._write_urgent() and out:
@@ -282,15 +286,15 @@ class ArmDriver:
 
     def _write(self, data: bytes) -> None:
         self._port.write(data)
-        self._through = max(self._through, time.monotonic()) + len(data) * BITS / self.baud
+        self._through = max(self._through, self.clock.now()) + len(data) * BITS / self.baud
 
     def _leave(self) -> None:
         """Let a last stop out, then close: a port that is closed may throw away what it has not sent."""
         with contextlib.suppress(Exception):  # it may be gone already
             self._write_urgent()
-            left = self._through - time.monotonic()
+            left = self._through - self.clock.now()
             if left > 0.0:
-                time.sleep(left + _BUFFERED)
+                self.clock.sleep(left + _BUFFERED)
         self._close_port()
 
     def _stop_without_core(self) -> None:

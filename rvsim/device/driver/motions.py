@@ -9,7 +9,7 @@ import numpy as np
 from rvsim.device.driver.plan import Plan
 from rvsim.robot.arrays import FloatArray
 
-LINGER = 0.5  # [s] without a new pose, streaming is over
+LINGER = 0.5  # [s] at the newest pose, streaming is over
 _MOST_OF_A_STEP = 1.5  # a trajectory waits rather than catches up: its time goes on by so many set-points at most
 
 
@@ -35,10 +35,10 @@ class Following:
 
     def next(self, here: FloatArray, seconds: float) -> FloatArray | None:
         """Where the joints (n,) should be when so many seconds have passed; None: they are there already."""
-        place = here if self._place is None else self._place
-        if self._target is None or (self._place is not None and np.array_equal(place, self._target)):
+        if self._target is None or self._is_there:
             self._unsent = False
             return None
+        place = here if self._place is None else self._place
         step = self._target - place
         part = min(1.0, 1.0 / max(float(np.max(np.abs(step) / (self._pace * seconds))), 1e-9))
         self._place = self._target.copy() if part >= 1.0 else place + part * step
@@ -46,12 +46,16 @@ class Following:
         return self._place
 
     def over(self, now: float, moving: bool) -> bool:
-        """Whether nothing has been asked for a while."""
-        if moving or self._unsent:
+        """Whether the newest pose was reached a while ago; where set-points are held up, it waits for them."""
+        if moving or self._unsent or not self._is_there:
             self._since = math.nan
         elif math.isnan(self._since):
             self._since = now
         return now - self._since > LINGER
+
+    @property
+    def _is_there(self) -> bool:
+        return self._place is not None and self._target is not None and np.array_equal(self._place, self._target)
 
 
 class Running:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import atexit
 import select
 import threading
-import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Protocol, TypeAlias
+from typing import ClassVar, Protocol, TypeAlias
 
 from rvsim.device.link.pacing import PacedArm, WiredArm
 from rvsim.device.link.pty_wire import PtyWire
-from rvsim.device.link.real_time import RealTime
+from rvsim.device.link.real_time import RealTime, WallClock
 from rvsim.device.link.wires import TcpWire, Wire
 from rvsim.device.wire_log import Direction
 from rvsim.errors import RvsimError
@@ -75,13 +74,15 @@ class Server:
         received_bytes, sent_bytes: how many have come from clients, and gone to them.
     """
 
+    clock: ClassVar[WallClock] = WallClock()
+
     def __init__(self, arm: ServedArm, wire: Wire, baud: int | None = None, log: Log | None = None) -> None:
         self.arm = arm
         self._log = log
         self.received_bytes = self.sent_bytes = 0
         self._wire = wire
         self._paced = PacedArm(arm, baud or USUAL_BAUD, board_baud=baud)
-        self._time = RealTime(self._paced, time.monotonic())
+        self._time = RealTime(self._paced, self.clock.now())
         self._unplugged = False
         self._stop, self._stopped = threading.Event(), threading.Event()
         self.problem = ""
@@ -143,7 +144,7 @@ class Server:
 
     def _exchange(self) -> None:
         """One look at the wire and the arm."""
-        self._time.tell(time.monotonic())
+        self._time.tell(self.clock.now())
         self._mind_the_plug()
         if self._unplugged:
             self._paced.discard_input()

@@ -53,6 +53,19 @@ def test_late_answers_make_the_arm_wait_but_never_hurry(rig, language) -> None:
 
 
 @LANGUAGES
+def test_an_arm_that_follows_arrives_though_the_board_was_silent_for_a_while(rig, language) -> None:
+    arm = rig(language).ready()
+    far = arm.home + np.array([1.4, 0.0, 0.0, 0.0, 0.0])
+    arm.done(Stream(far))
+    arm.run(0.1)
+    switched(arm, Fault.NO_REPLY)
+    arm.run(1.0)
+    switched(arm)
+    arm.until("ready")
+    assert arm.state.commanded_q == pytest.approx(far, abs=2e-3)
+
+
+@LANGUAGES
 def test_three_silent_questions_latch_the_stop_and_a_reset_needs_an_answer(rig, language) -> None:
     arm = running(rig(language), 10.0)
     switched(arm, Fault.NO_REPLY)

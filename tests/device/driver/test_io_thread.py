@@ -16,7 +16,7 @@ SOON = 10.0  # [s]; what happens at once needs milliseconds
 
 
 @pytest.fixture
-def driver():
+def driver(quick_time):
     with ArmDriver(load_robot("al5b"), "al5b://", baud=115200) as driver:
         yield driver
 

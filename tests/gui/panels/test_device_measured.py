@@ -35,7 +35,7 @@ def _experiment(robot: Robot) -> Experiment:
 
 
 @pytest.fixture
-def page(qtbot: QtBot) -> Iterator[MeasuredPage]:
+def page(qtbot: QtBot, quick_time: None) -> Iterator[MeasuredPage]:
     """After a motion of the virtual arm, to which it had to go first."""
     preferences = Preferences()
     session = Session(_experiment(load_robot("al5b")), _experiment)
