@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication
 from rvsim.gui.document_state import port_section, show_view, view_of
 from rvsim.gui.languages import system_language, wear_language
 from rvsim.gui.main_window import MainWindow
-from rvsim.gui.theme import prepare_theme, wear_theme
+from rvsim.gui.theme import prepare_theme, undress, wear_theme
 from rvsim.language import LANGUAGES, language, tr
 
 # Windows in languages that are spoken no more, hidden and at rest. To destroy one, with its thousands of parts that
@@ -51,7 +51,8 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     old.setUpdatesEnabled(False)
     old.motion.pause()
     view, port, tracking = view_of(old), port_section(old).settings, old.session.tracking
-    geometry, layout = old.window_layout()
+    (geometry, layout), widths = old.window_layout(), old.dragged_widths
+    undress(old)
     mirrored = LANGUAGES[code].right_to_left != language().right_to_left
     wear_language(app, code)
     preferences = old.preferences.successor()
@@ -59,7 +60,7 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     new = MainWindow(old.session.successor(), preferences, old.library, old.choice)
     wear_theme(preferences)
     new.dress_narrowest()
-    new.lay_out(geometry, QByteArray() if mirrored else layout)
+    new.lay_out(geometry, QByteArray() if mirrored else layout, widths)
     port_section(new).show_settings(port)
     new.document.take_over(old.document)
     new.tracker.take_over(old.tracker, tracking)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QByteArray, QElapsedTimer, QEvent, Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QGuiApplication, QPixmap, QShowEvent, QStatusTipEvent
+from PySide6.QtGui import QCloseEvent, QGuiApplication, QMouseEvent, QPixmap, QShowEvent, QStatusTipEvent
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QMenu, QPushButton, QSplitter, QToolBar, QWidget
 
 from rvsim.experiment import Experiment
@@ -110,6 +110,7 @@ class MainWindow(QMainWindow):
         self._add_recent_menu()
         self._show_robot()
         self.resize(1366, 768)
+        self._dragged = self._sized = False
         self._restore_layout()
 
     # --- assembly --------------------------------------------------------------------------------------------------
@@ -274,8 +275,10 @@ class MainWindow(QMainWindow):
     def event(self, event: QEvent) -> bool:
         """Show what a command does in the place of the message, and the message again afterwards.
 
-        The status bar's own way would write it over the message.
+        The status bar's own way would write it over the message. A press between docks begins to drag them.
         """
+        if event.type() == QEvent.Type.MouseButtonPress and isinstance(event, QMouseEvent):
+            self._dragged |= self.isSeparator(event.position().toPoint())
         if not isinstance(event, QStatusTipEvent):
             return super().event(event)
         text, level = (event.tip(), "") if event.tip() else self._said
@@ -325,7 +328,11 @@ class MainWindow(QMainWindow):
         room = round((1.0 - _SCENE_SHARE) * self.width()) - 2 * _SEPARATOR
         left = min(left, max(room - right, self.joints.minimumSizeHint().width()))  # the joints need the least
         right = min(right, max(room - left, _NARROWEST_RIGHT))
-        self.resizeDocks([self.docks.left, self.docks.right[0]], [left, right], Qt.Orientation.Horizontal)
+        self._dragged = False
+        self._widen_docks((left, right))
+
+    def _widen_docks(self, widths: tuple[int, int]) -> None:
+        self.resizeDocks([self.docks.left, self.docks.right[0]], list(widths), Qt.Orientation.Horizontal)
 
     def say_welcome(self) -> None:
         """The first minute: what to do now."""
@@ -336,13 +343,21 @@ class MainWindow(QMainWindow):
     # --- layout ----------------------------------------------------------------------------------------------------
 
     def _restore_layout(self) -> None:
-        self.lay_out(self.preferences.window_state("geometry"), self.preferences.window_state(_layout_key()))
+        kept, key = self.preferences.window_state, _layout_key()
+        self.lay_out(kept("geometry"), kept(key), _widths_in(kept(f"{key}_widths")))
 
-    def lay_out(self, geometry: QByteArray, layout: QByteArray) -> None:
-        """Take the geometry and dock layout that another window had; what is empty is left as it is."""
+    def lay_out(self, geometry: QByteArray, layout: QByteArray, widths: tuple[int, ...]) -> None:
+        """Take the geometry, the dock layout and `dragged_widths` of another window; what is empty is left as it is."""
         if not geometry.isEmpty():
             self.restoreGeometry(geometry)
-        self._laid_out = not layout.isEmpty() and self.restoreState(layout, _STATE_VERSION)
+        if not layout.isEmpty():
+            self.restoreState(layout, _STATE_VERSION)
+        self._first_widths = widths
+
+    @property
+    def dragged_widths(self) -> tuple[int, ...]:
+        """Of the docks at the left and at the right, if somebody has dragged them; else a window needs its own."""
+        return (self.docks.left.width(), self.docks.front.width()) if self._dragged else ()
 
     def dress_narrowest(self) -> None:
         """Dress the buttons at the left before they are shown: undressed ones are wider, and would widen the window."""
@@ -357,10 +372,14 @@ class MainWindow(QMainWindow):
     def showEvent(self, event: QShowEvent) -> None:
         """Give the docks their first widths: Qt heeds them only once the window has its size."""
         super().showEvent(event)
-        if not self._laid_out:
-            self._laid_out = True
+        if not self._sized:
+            self._sized = True
             QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest)  # or the next one takes the widths back
             self._size_docks()
+            if self._first_widths:
+                left, right = self._first_widths
+                self._widen_docks((left, right))
+                self._dragged = True
             QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest)
 
     def window_layout(self) -> tuple[QByteArray, QByteArray]:
@@ -384,6 +403,8 @@ class MainWindow(QMainWindow):
         geometry, layout = self.window_layout()
         self.preferences.keep_window_state("geometry", geometry)
         self.preferences.keep_window_state(_layout_key(), layout)
+        widths = " ".join(map(str, self.dragged_widths))
+        self.preferences.keep_window_state(f"{_layout_key()}_widths", QByteArray(widths.encode()))
         self.end()
         super().closeEvent(event)
 
@@ -411,3 +432,9 @@ class MainWindow(QMainWindow):
 def _layout_key() -> str:
     """Under which the docks are remembered: from right to left they lie the other way round."""
     return "mirrored_layout" if language().right_to_left else "layout"
+
+
+def _widths_in(kept: QByteArray) -> tuple[int, ...]:
+    """Two widths, or none where nothing was kept or something else."""
+    words = bytes(kept.data()).split()
+    return tuple(map(int, words)) if len(words) == 2 and all(map(bytes.isdigit, words)) else ()

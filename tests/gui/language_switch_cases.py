@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import (
     QApplication,
 )
@@ -66,6 +67,7 @@ def test_a_switch_keeps_session_undo_file_motion_and_view(keeper: WindowKeeper, 
     window.preferences.set("look", "stick")
     window.docks.show_panel("singular")
     before, q, steps = session_bytes(state_of(window)), window.session.q, window.session.undo_stack.count()
+    width = window.docks.left.width()
     for code in ("ar", "de", "en"):
         window = switched(keeper, qtbot, code)
         assert language().code == code
@@ -73,6 +75,8 @@ def test_a_switch_keeps_session_undo_file_motion_and_view(keeper: WindowKeeper, 
         assert (window.document.path, window.document.dirty) == (tmp_path / "mine.rvsim", True)
         assert (window.motion.player.time, window.docks.front_page) == (1.0, "singular")
         assert window.session.tracking is not None
+    assert window.docks.left.width() <= width  # not that of German, which needs more
+    assert not window.dragged_widths
     for _ in range(steps):
         window.actions_by_name["undo"].trigger()
     assert not window.document.dirty
@@ -162,8 +166,10 @@ def test_undo_steps_are_named_in_the_new_language(keeper: WindowKeeper, qtbot: Q
 
 def test_the_old_window_rests_and_is_seen_no_more(keeper: WindowKeeper, qtbot: QtBot) -> None:
     old = keeper.window
+    qtbot.mouseClick(old, Qt.MouseButton.LeftButton, pos=old.docks.left.geometry().topRight() + QPoint(3, 300))
     new = switched(keeper, qtbot, "de")
     assert old in PARKED
+    assert new.dragged_widths, "somebody has taken hold of what parts the docks"
     assert [one for one in QApplication.topLevelWidgets() if isinstance(one, MainWindow) and one.isVisible()] == [new]
     q = old.joints.findChild(JointBox, "joint_value_1").text()
     new.joints.go_zero()
