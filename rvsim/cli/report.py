@@ -8,7 +8,7 @@ from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rvsim.cli.arguments import JOINTS_NOTE, Command, add_arm
+from rvsim.cli.arguments import JOINTS_NOTE, Command, add_arm, output_file
 from rvsim.cli.outcome import DONE
 from rvsim.cli.output import print_result
 from rvsim.cli.values import typed_joints
@@ -29,6 +29,7 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--date", default="", help="as it is to stand there; today's if not given")
     parser.add_argument("--notes", default="", help="what was done and found")
     parser.add_argument("--animation", action="store_true", help="the motion as a GIF too")
+    parser.add_argument("--png", type=output_file, metavar="FILE", help="three of its pages as a picture too")
     parser.add_argument("--zip", action="store_true", help="a .zip of the folder too")
 
 
@@ -46,9 +47,10 @@ def _report(options: argparse.Namespace) -> int:
     folder = Path(options.out or f"report-{study.robot.name}").absolute()
     kept = replace(study.experiment, notes=Notes(options.name, options.notes))
     session = session_bytes(SessionState(kept))
-    write_report(study, Order(folder, cover, None, options.animation, options.zip, session))
+    write_report(study, Order(folder, cover, None, options.animation, options.zip, session), options.png)
     files = sorted(file.name for file in folder.iterdir())
-    print_result(options, {"folder": str(folder), "files": files}, f"Written: {folder} ({', '.join(files)})")
+    lines = (f"Written: {folder} ({', '.join(files)})", *([f"Written: {options.png}"] if options.png else []))
+    print_result(options, {"folder": str(folder), "files": files}, "\n".join(lines))
     return DONE
 
 

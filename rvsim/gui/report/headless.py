@@ -6,13 +6,15 @@ import os
 
 from PySide6.QtGui import QGuiApplication
 
+from rvsim.gui.picture import save_image
 from rvsim.gui.report.bundle import Order, write_bundle
+from rvsim.gui.report.picture import pages_picture
 from rvsim.gui.theme import load_fonts
-from rvsim.lab.report import Study
+from rvsim.lab.report import Study, build
 
 
-def write_report(study: Study, order: Order) -> None:
-    """Make the whole bundle.
+def write_report(study: Study, order: Order, picture: str | None = None) -> None:
+    """Make the whole bundle, and a picture of some pages if there is to be one.
 
     Raises:
         FileWriteError: it cannot be written there; nothing is.
@@ -22,4 +24,6 @@ def write_report(study: Study, order: Order) -> None:
     load_fonts()
     for _ in write_bundle(study, order):
         pass
+    if picture is not None:
+        save_image(pages_picture(build(study, order.cover, order.parts)), picture)
     del application  # it had to live until here

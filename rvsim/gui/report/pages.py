@@ -22,7 +22,7 @@ _FOOT = 0.15  # of a page: a section does not begin so near to its end
 _WORTH = 0.3  # of a page: for so much a section begins before the figures of the last one
 _SPACES = (1.0, 0.94, 0.88, 0.82, 0.76, 0.7)  # shares of the spaces that pages are tried with
 _BARE, _LEAST_END = 0.06, 0.25  # of a page: what may be empty without being seen; so much is worth a last page
-_COST_OF_SPACES, _COST_OF_END = 0.1, 1.0  # beside the squares of what is empty
+_COST_OF_SPACES, _COST_OF_END = 0.05, 1.0  # beside the squares of what is empty
 
 
 def paginated(strips: Iterable[Strip], height: float, first: float = 0.0) -> tuple[Page, ...]:

@@ -15,7 +15,7 @@ from rvsim.lab.report.values import Column, Run, Table, Words, runs
 
 _PAD, _FAIR_PAD, _LEAST_PAD = 7.0, 4.0, 2.5  # at each side of a cell
 _LEAST_SCALE = 0.74
-_BROKEN = 0.55  # of the width that its text has in one line is enough for a column that may break it
+_BROKEN = 0.62  # of the width that its text has in one line is enough for a column that may break it
 _SPREAD = 0.85  # of the page: a table as wide as that takes all of it
 _MATH_SIZE = 9.5
 _THICK, _THIN = 1.0, 0.5
@@ -140,10 +140,11 @@ def _narrowed(widths: list[float], columns: tuple[Column, ...], over: float) -> 
 def _row(
     cells: tuple[Words, ...], columns: tuple[Column, ...], grid: _Grid, face: Face, rules: tuple[float, float]
 ) -> Strip:
-    """One row; `rules` are the thicknesses of the lines above and below it."""
+    """One row on a common baseline; `rules` are the thicknesses of the lines above and below it."""
     made = [_cell(cell, face, width, grid.scale) for cell, width in zip(cells, grid.widths, strict=True)]
     air = 2.0 if face is faces.CELL else 3.0
-    height = max(max(_height(cell) for cell in made) + air, face.leading * grid.scale + air)
+    ascent = max(cell.ascent for cell in made)
+    height = air + max(ascent + max(cell.descent for cell in made), face.leading * grid.scale)
 
     def draw(painter: QPainter, x: float, y: float) -> None:
         for thickness, at in ((rules[0], y), (rules[1], y + height)):
@@ -152,7 +153,7 @@ def _row(
         for cell, column, left, width in zip(made, columns, grid.lefts, grid.widths, strict=True):
             free = width - cell.width
             shift = {"left": free if grid.mirrored else 0.0, "center": 0.5 * free, "right": free}[column.align]
-            _draw_cell(cell, painter, x + left + shift, y + 0.5 * air, height - air)
+            _draw_cell(cell, painter, x + left + shift, y + 0.5 * air + ascent)
 
     return Strip(height, draw)
 
@@ -164,12 +165,8 @@ def _cell(words: Words, face: Face, width: float, scale: float) -> Text | Set:
     return Text(words, face, width + 1.0, scale=scale)
 
 
-def _height(cell: Text | Set) -> float:
-    return cell.height if isinstance(cell, Text) else cell.ascent + cell.descent
-
-
-def _draw_cell(cell: Text | Set, painter: QPainter, x: float, y: float, height: float) -> None:
+def _draw_cell(cell: Text | Set, painter: QPainter, x: float, baseline: float) -> None:
     if isinstance(cell, Text):
-        cell.draw(painter, x - cell.left, y)
+        cell.draw(painter, x - cell.left, baseline - cell.ascent)
     else:
-        cell.draw(painter, x, y + 0.5 * (height + cell.ascent - cell.descent))
+        cell.draw(painter, x, baseline)

@@ -144,6 +144,16 @@ class Text:
         return self.count * self.leading
 
     @property
+    def ascent(self) -> float:
+        """From the upper edge to the first baseline."""
+        return self._scale * (0.5 * self.face.leading + 0.34 * self.face.size)
+
+    @property
+    def descent(self) -> float:
+        """From the first baseline to the lower edge."""
+        return self.height - self.ascent
+
+    @property
     def width(self) -> float:
         """Of the longest line."""
         lines = (self._layout.lineAt(number).naturalTextWidth() for number in range(self.count))
@@ -157,8 +167,8 @@ class Text:
         painter.setPen(self.face.color)
         for row, number in enumerate(range(first, self.count if last is None else last)):
             line = self._layout.lineAt(number)
-            baseline = (row + 0.5) * self.face.leading + 0.34 * self.face.size
-            line.draw(painter, QPointF(-line.x(), baseline * FINE - line.ascent() - line.y()))
+            baseline = FINE * (row * self.face.leading + self.ascent / self._scale)
+            line.draw(painter, QPointF(-line.x(), baseline - line.ascent() - line.y()))
         painter.restore()
 
 

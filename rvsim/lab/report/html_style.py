@@ -24,7 +24,7 @@ li { margin: 4px 0; }
 code { font-family: "DejaVu Sans Mono", Consolas, Menlo, monospace; font-size: 85%; }
 .formula { margin-block: 12px; margin-inline: 28px 0; overflow-x: auto; }
 .parts { display: inline-block; text-align: left; vertical-align: middle; }
-.formula svg { margin: 3px 8px 3px 0; vertical-align: middle; max-width: none; }
+.formula svg { margin: 3px 12px 3px 0; vertical-align: middle; max-width: none; }
 .label { display: inline-block; width: 64px; color: #566373; font-size: 13px; }
 td svg { vertical-align: middle; }
 figure { margin: 24px 0; } figure img, figure > svg { width: 100%; height: auto; display: block; }
@@ -40,9 +40,11 @@ tr.total td { border-top: .8px solid #1d2733; }
 .good { color: #00664b; } .warning { color: #8a4b00; } .bad { color: #b3261e; font-weight: 600; }
 .muted { color: #566373; }
 sub { line-height: 0; }
-@media print { body { background: #fff; font-size: 10pt; } main { box-shadow: none; margin: 0; padding: 0;
-  max-width: none; }
+@media (max-width: 700px) { main { margin: 0; padding: 24px 18px; } .formula { margin-inline-start: 8px; } }
+@media print { body { background: #fff; font-size: 10pt; } .math { zoom: .82; } main { box-shadow: none;
+  margin: 0; padding: 0; max-width: none; }
   .lead { font-size: 11pt; } table { font-size: 9.5pt; } th, .note { font-size: 8pt; } figcaption { font-size: 8.6pt; }
-  h2, h3 { break-after: avoid; } figure, tr, .formula { break-inside: avoid; } }
+  figure img { width: 82%; margin-inline: auto; border: .3pt solid #566373; }
+  h2, h3 { break-after: avoid; } p, li { orphans: 2; widows: 2; } figure, tr, .formula { break-inside: avoid; } }
 @page { size: A4; margin: 22mm; }
 """
