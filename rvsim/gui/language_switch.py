@@ -9,11 +9,13 @@ from rvsim.gui.document_state import port_section, show_view, view_of
 from rvsim.gui.languages import system_language, wear_language
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.theme import prepare_theme, undress, wear_theme
-from rvsim.language import LANGUAGES, language, tr
+from rvsim.language import LANGUAGES, language, tr, tr_later
 
 # Windows in languages that are spoken no more, hidden and at rest. To destroy one, with its thousands of parts that
 # Python knows, has ended the program now and then (Qt for Python 6.11); nobody changes the language often.
 PARKED: list[MainWindow] = []
+
+_NO_LONGER = tr_later("The arm no longer follows: switch “Follow the window” on again under Device › Drive.")
 
 
 class WindowKeeper(QObject):
@@ -38,10 +40,13 @@ class WindowKeeper(QObject):
     def _switch(self) -> None:
         code = self.window.preferences["language"] or system_language()
         if code != language().code:
+            followed = self.window.device.live
             old, self.window = self.window, _successor(self.window, code)
             PARKED.append(old)
             self._listen()
             self.window.session.say(tr("rvsim speaks {language} now.", language=LANGUAGES[code].name))
+            if followed:  # an arm moves by itself only as long as somebody has just said so
+                self.window.session.warn(tr(_NO_LONGER))
 
 
 def _successor(old: MainWindow, code: str) -> MainWindow:
@@ -71,6 +76,7 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     show_view(new, view)
     new.setVisible(old.isVisible())
     _go_on_with_tour(old, new)
+    _open_beside(old, new)
     old.document.autosave.close()
     old.rest()
     return new
@@ -82,3 +88,15 @@ def _go_on_with_tour(old: MainWindow, new: MainWindow) -> None:
         from rvsim.gui.tour import Tour, begin_tour  # most windows never show it
 
         begin_tour(new).go(next(tour.step for tour in old.findChildren(Tour)))
+
+
+def _open_beside(old: MainWindow, new: MainWindow) -> None:
+    """What is written and read beside the window goes on: notes and help."""
+    from rvsim.gui.help.window import HelpWindow  # neither is needed at the start
+    from rvsim.gui.notes_dialog import NotesDialog
+
+    notes, pages = old.findChild(NotesDialog), old.findChild(HelpWindow)
+    if notes is not None and notes.isVisible():
+        NotesDialog(new.session, new).take_over(notes)
+    if pages is not None and pages.isVisible():
+        HelpWindow(new).take_over(pages)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker
+from PySide6.QtGui import QTextCursor
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLineEdit, QVBoxLayout, QWidget
 
 from rvsim.experiment import Experiment, Notes
@@ -48,6 +49,18 @@ class NotesDialog(QDialog):
         self.resize(460, 380)
         session.changed.connect(self._on_changed)
         self._show(session.experiment.notes)
+
+    def take_over(self, other: NotesDialog) -> None:
+        """Open in the place of one in another language, with the cursor where it was."""
+        self.restoreGeometry(other.saveGeometry())
+        before, cursor = other.text.textCursor(), self.text.textCursor()
+        cursor.setPosition(before.anchor())
+        cursor.setPosition(before.position(), QTextCursor.MoveMode.KeepAnchor)
+        self.text.setTextCursor(cursor)
+        self.student.setCursorPosition(other.student.cursorPosition())
+        (self.student if other.focusWidget() is other.student else self.text).setFocus()
+        self.show()
+        self.text.verticalScrollBar().setValue(other.text.verticalScrollBar().value())
 
     def _write(self, text: str, merge: str) -> None:
         written = self.text.toPlainText()

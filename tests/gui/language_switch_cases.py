@@ -20,9 +20,12 @@ from pytestqt.qtbot import QtBot
 from rvsim.files.session_file import session_bytes
 from rvsim.gui.app import build_window
 from rvsim.gui.document_state import state_of
+from rvsim.gui.help.show import show_help
+from rvsim.gui.help.window import HelpWindow
 from rvsim.gui.language_switch import PARKED, WindowKeeper
 from rvsim.gui.languages import wear_language
 from rvsim.gui.main_window import MainWindow
+from rvsim.gui.notes_dialog import NotesDialog
 from rvsim.gui.panels.device_calibrate import CalibratePage
 from rvsim.gui.panels.joint_box import JointBox
 from rvsim.gui.preferences import Preferences
@@ -123,17 +126,31 @@ def test_a_path_that_is_being_worked_out_is_worked_out_by_the_new_window(keeper:
     assert not window.motion.player.playing
 
 
-def test_marks_of_a_calibration_and_the_step_of_the_tour_stay(keeper: WindowKeeper, qtbot: QtBot) -> None:
+def test_a_calibration_the_tour_notes_and_help_go_on(keeper: WindowKeeper, qtbot: QtBot) -> None:
     keeper.window.session.use_robot(keeper.window.library["al5b"])
     keeper.window.docks.show_panel("calibrate")
     page = keeper.window.findChild(CalibratePage)
     page.refresh()
     page._go_on_with(page._wizard.mark(page._wizard.step.expected_us))
     begin_tour(keeper.window).go(2)
+    keeper.window.commands.show_notes()
+    notes = keeper.window.findChild(NotesDialog)
+    qtbot.keyClicks(notes.text, "seen")
+    cursor = notes.text.textCursor()
+    cursor.setPosition(2)
+    notes.text.setTextCursor(cursor)
+    show_help(keeper.window, "arm")
+    show_help(keeper.window, "files").browser.verticalScrollBar().setValue(99)
     window = switched(keeper, qtbot, "ar")
     other = window.findChild(CalibratePage)
     other.refresh()
     assert other._wizard.marks == page._wizard.marks != ()
+    beside = window.findChild(NotesDialog), window.findChild(HelpWindow)
+    assert all(one.isVisible() and one.layoutDirection() == Qt.LayoutDirection.RightToLeft for one in beside)
+    assert (beside[0].text.toPlainText(), beside[0].text.textCursor().position()) == ("seen", 2)
+    assert (beside[1].place.page, beside[1].browser.verticalScrollBar().value() > 0) == ("files", True)
+    beside[1].go_back()
+    assert beside[1].place.page == "arm"
     assert window.findChild(Tour).step == 2
 
 
@@ -143,8 +160,13 @@ def test_a_connected_arm_stays_connected_and_does_not_move(keeper: WindowKeeper,
     window.device.connect_to("al5b://")
     qtbot.waitUntil(lambda: window.device.state is not None and window.device.state.connected)
     driver = window.device.driver
+    window.device._live = True  # to wake every joint before would take seconds
     sent = driver.state.commanded_q
     window = switched(keeper, qtbot, "de")
+    assert not window.device.live
+    assert window.message.text() == tr(
+        "The arm no longer follows: switch “Follow the window” on again under Device › Drive."
+    )
     assert window.device.driver is driver
     qtbot.waitUntil(lambda: window.device.state is not None and window.device.state.connected)
     assert np.array_equal(window.device.state.commanded_q, sent, equal_nan=True)

@@ -140,6 +140,17 @@ class HelpWindow(QWidget):
         """Show a page, at a heading if one is named; words are marked in it."""
         self._go(Place(name if name in help_pages() else INDEX, anchor, words))
 
+    def take_over(self, other: HelpWindow) -> None:
+        """Open in the place of one in another language: on its page and about there, with what was read before."""
+        self._places, self._scrolls, self._now = [*other._places], [*other._scrolls], other._now
+        self.words.setText(other.words.text())
+        self.restoreGeometry(other.saveGeometry())
+        before, bar = other.browser.verticalScrollBar(), self.browser.verticalScrollBar()
+        share = before.value() / max(before.maximum(), 1)
+        self.show()
+        self._show()
+        bar.setValue(round(share * bar.maximum()))
+
     def go_back(self) -> None:
         """To where the reader was before."""
         self._step(-1)
