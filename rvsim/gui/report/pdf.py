@@ -51,7 +51,7 @@ class Sheets:
 
     def _header(self, painter: QPainter) -> None:
         cover, y = self.document.cover, MARGIN[1] - 34.0
-        author = Text(cover.author, faces.SMALL, 0.4 * WIDTH)
+        author = Text(_shortened(cover.author, 0.4 * WIDTH), faces.SMALL, WIDTH)
         room = WIDTH - author.width - 20.0
         title = Text(_shortened(cover.title, room), faces.SMALL, WIDTH)
         title.draw(painter, MARGIN[0], y)
@@ -83,7 +83,8 @@ def _shortened(text: str, width: float) -> str:
 def _title_strips(cover: Cover) -> Iterator[Strip]:
     yield from text_strips(tr("LABORATORY REPORT"), faces.SMALL, WIDTH, above=0.0)
     yield from text_strips(cover.title, faces.TITLE, WIDTH, above=3.0)
-    who = " · ".join(f"{_ISOLATE}{text}{_AGAIN}" for text in (cover.author, cover.date) if text)
+    date = cover.date.replace(" ", "\u00a0")
+    who = " · ".join(f"{_ISOLATE}{text}{_AGAIN}" for text in (cover.author, date) if text)
     if who:
         yield from text_strips(who, faces.LEAD._replace(sans=True, size=10.5, color=MUTED), WIDTH, above=4.0)
     yield Strip(1.2, _title_rule, 9.0)

@@ -13,8 +13,8 @@ from rvsim.gui.report.strips import Set, Strip, caption_runs, set_formula, text_
 from rvsim.gui.report.typography import RULE, Face, Text, aside, from_right, text_width
 from rvsim.lab.report.values import Column, Run, Table, Words, runs
 
-_PAD, _FAIR_PAD, _LEAST_PAD = 7.0, 4.0, 2.5  # at each side of a cell
-_LEAST_SCALE = 0.74
+_PAD, _FAIR_PAD, _LEAST_PAD = 7.0, 3.5, 2.5  # at each side of a cell
+_FAIR_SCALE, _LEAST_SCALE = 0.93, 0.74  # of letters
 _BROKEN = 0.62  # of the width that its text has in one line is enough for a column that may break it
 _SPREAD = 0.85  # of the page: a table as wide as that takes all of it
 _MATH_SIZE = 9.5
@@ -120,8 +120,10 @@ def _math(words: Words) -> str:
 
 
 def _broken(widths: list[float], columns: tuple[Column, ...], most: float) -> list[float]:
-    """Text that may stand in two lines does so before all letters become smaller."""
-    over, count = max(0.0, sum(widths) - most), sum(column.wide for column in columns)
+    """Text that may stand in two lines does so before all letters become much smaller."""
+    over, count = sum(widths) - most, sum(column.wide for column in columns)
+    if _FAIR_SCALE * sum(widths) <= most:
+        return widths
     return [
         max(each - over / count, _BROKEN * each) if column.wide else each
         for each, column in zip(widths, columns, strict=True)

@@ -32,6 +32,7 @@ from rvsim.lab.worked import Equation, Step, WorkedBranch, WorkedSolution, worke
 from rvsim.language import tr, tr_later, trn
 
 _SAME = 1e-6
+_HYPHEN = "\u2011"  # at which no line breaks: "no-flip" is one word
 TASKS = {
     "pose": tr_later("place and orientation of the tool"),
     "position": tr_later("the place of the tool; its orientation follows"),
@@ -108,7 +109,7 @@ def _branch_row(row: int, study: Study, measures: Measures, branch: Branch) -> t
     joints = (measures.joint(i).text(float(value), 1) for i, value in enumerate(branch.q))
     return (
         f"{row}{' ▸' if here else ''}",
-        branch_title(branch.label),
+        branch_title(branch.label).replace("-", _HYPHEN),
         *joints,
         verdict,
         f"{number(float(branch.limit_margin[tightest]) * margin.factor, 1)} {margin.unit}".replace(" °", "°"),

@@ -36,7 +36,7 @@ def runs(words: Words) -> Runs:
     return (Run(words),) if isinstance(words, str) else words
 
 
-_INDEXED = re.compile(r"(?<!\w)([^\W\d_]_[^\W_]{1,2})(?!\w)")
+_INDEXED = re.compile(r"(?<![A-Za-z\d_])([^\W\d_]_[^\W_]{1,2})(?!\w)")
 
 
 def with_indices(text: str, style: Style = "") -> Runs:
@@ -45,11 +45,11 @@ def with_indices(text: str, style: Style = "") -> Runs:
     return tuple(Run(piece, "index" if number % 2 else style) for number, piece in enumerate(pieces) if piece)
 
 
-_BOUND = re.compile(r" (?=[=≥≤≈] )|(?<=[=≥≤≈]) |(?<=\d) (?=(?:%|[nµm]?m|[mµ]?s|k?g|N m|N|rad)(?!\w))")
+_BOUND = re.compile(r" (?=[=≥≤≈] [^(])|(?<=[=≥≤≈]) (?!\()|(?<=\d) (?=(?:%|[nµm]?m|[mµ]?s|k?g|N m|N|rad)(?!\w))")
 
 
 def unbroken(text: str) -> str:
-    """What is compared stays on one line, and a number with its unit."""
+    """What is compared stays on one line, but for a long bracket, and a number with its unit."""
     return _BOUND.sub("\u00a0", text)
 
 

@@ -149,6 +149,7 @@ def test_a_line_is_described_by_its_ends_and_the_summary_tells_the_deviation_bet
 
 
 def test_numbers_keep_their_units_and_comparisons_their_sides() -> None:
+    assert unbroken("x = (1, 2)") == "x = (1, 2)"
     assert unbroken("62 % of 5 mm and 3 more, w ≥ 0") == "62\u00a0% of 5\u00a0mm and 3 more, w\u00a0≥\u00a00"
     assert with_minus("q1 - q4, -x and a - b") == "q1 − q4, −x and a - b"
 
@@ -175,6 +176,7 @@ def test_own_weight_is_in_the_share_where_the_student_counts_it(counted: bool) -
 def test_a_letter_with_an_index_is_told_from_a_name() -> None:
     assert [run.text for run in with_indices("n_z and Desired_tr") if run.style == "index"] == ["n_z"]
     assert plain(with_indices("n_z and Desired_tr")) == "n_z and Desired_tr"
+    assert with_indices("\u0648o_z")[1].style == "index"  # “and” is one with what follows it
 
 
 def test_what_ran_on_an_arm_is_compared_with_what_was_wanted() -> None:
