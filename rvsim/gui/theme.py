@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 from rvsim.gui.preferences import Preferences
 from rvsim.language import language
@@ -184,6 +185,18 @@ def prepare_theme(preferences: Preferences) -> None:
     _prepare(_application(), preferences["theme"], preferences["presentation"])
 
 
+def undress(window: QWidget) -> None:
+    """Take a window that is seen no more out of the dressing: each later theme would dress all its thousands of parts.
+
+    Qt dresses what is marked as polished, and tells of another style what has none of its own.
+    """
+    style = _application().style()
+    for widget in (window, *window.findChildren(QWidget)):
+        style.unpolish(widget)
+        widget.setAttribute(Qt.WidgetAttribute.WA_WState_Polished, False)
+        widget.setAttribute(Qt.WidgetAttribute.WA_SetStyle)
+
+
 def _application() -> QApplication:
     app = QApplication.instance()
     assert isinstance(app, QApplication)
@@ -192,8 +205,6 @@ def _application() -> QApplication:
 
 def set_role(widget: object, **properties: object) -> None:
     """Set the properties that the style sheet looks at, and let it look again."""
-    from PySide6.QtWidgets import QWidget
-
     assert isinstance(widget, QWidget)
     if all(widget.property(name) == value for name, value in properties.items()):
         return
