@@ -53,13 +53,13 @@ class NotesDialog(QDialog):
     def take_over(self, other: NotesDialog) -> None:
         """Open in the place of one in another language, with the cursor where it was."""
         self.restoreGeometry(other.saveGeometry())
+        self.show()
         before, cursor = other.text.textCursor(), self.text.textCursor()
         cursor.setPosition(before.anchor())
         cursor.setPosition(before.position(), QTextCursor.MoveMode.KeepAnchor)
         self.text.setTextCursor(cursor)
         self.student.setCursorPosition(other.student.cursorPosition())
         (self.student if other.focusWidget() is other.student else self.text).setFocus()
-        self.show()
         self.text.verticalScrollBar().setValue(other.text.verticalScrollBar().value())
 
     def _write(self, text: str, merge: str) -> None:
