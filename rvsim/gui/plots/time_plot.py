@@ -69,7 +69,6 @@ class TimePlot(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(96, 84)
         self.setCursor(Qt.CursorShape.SplitHCursor)
-        self.setToolTip(tr("Click or drag to go to that moment"))
 
     # --- what is shown ---------------------------------------------------------------------------------------------
 
@@ -140,7 +139,10 @@ class TimePlot(QWidget):
         self.plot.showGrid(x=True, y=True, alpha=0.15)
         unit = f" {left_to_right(f'[{self._drawing.unit}]')}" if self._drawing.unit else ""
         size = f"{self.font().pointSizeF():.1f}pt"
-        self.plot.setTitle(f"{self._short_title(unit)}{unit}", color=theme.text, size=size)
+        whole, short = tr(self._drawing.title), self._short_title(unit)
+        self.plot.setTitle(f"{short}{unit}", color=theme.text, size=size)
+        tip = tr("Click or drag to go to that moment")
+        self.setToolTip(tip if short == whole else f"{whole}\n{tip}")
 
     def _short_title(self, unit: str) -> str:
         """The title as far as there is room beside its unit: a longer one would push the curves out of sight."""

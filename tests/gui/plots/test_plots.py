@@ -116,6 +116,11 @@ def test_the_plots_fit_a_small_screen(qtbot: QtBot, window: MainWindow) -> None:
         qtbot.waitUntil(
             lambda plot=plot: plot.mapTo(window.plots, plot.rect().bottomRight()).x() <= window.plots.width()
         )
+    plot = window.plots.plots["deviation"]
+    assert plot.drawing.title not in plot.toolTip()
+    plot.resize(plot.minimumSize())
+    plot.repaint_curves()
+    assert plot.toolTip().startswith(f"{plot.drawing.title}\n"), "there is no room for all of it"
 
 
 def test_the_largest_value_is_told_with_its_joint_and_time(window: MainWindow) -> None:
