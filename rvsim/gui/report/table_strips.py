@@ -11,7 +11,7 @@ from PySide6.QtGui import QPainter, QPen
 from rvsim.gui.report import typography as faces
 from rvsim.gui.report.strips import Set, Strip, caption_runs, set_formula, text_strips
 from rvsim.gui.report.typography import RULE, Face, Text, aside, from_right, text_width
-from rvsim.lab.report.values import Column, Run, Table, Words, runs
+from rvsim.lab.report.values import ASSUMED, Align, Column, Run, Table, Words, is_marked, runs
 
 _PAD, _FAIR_PAD, _LEAST_PAD = 7.0, 3.5, 2.5  # at each side of a cell
 _FAIR_SCALE, _LEAST_SCALE = 0.93, 0.74  # of letters
@@ -20,12 +20,14 @@ _SPREAD = 0.85  # of the page: a table as wide as that takes all of it
 _MATH_SIZE = 9.5
 _THICK, _THIN = 1.0, 0.5
 _SMALL = 14  # rows
+_MARK = f" {ASSUMED}"
 
 
 class _Grid(NamedTuple):
     """Where the columns are: left edges and widths without their padding; how much smaller than usual all of it is.
 
-    `left` is where the table begins; `mirrored`: its columns are read from right to left.
+    `left` is where the table begins; `mirrored`: its columns are read from right to left; `hanging`: those in which
+    numbers leave room for a mark.
     """
 
     lefts: tuple[float, ...]
@@ -34,6 +36,7 @@ class _Grid(NamedTuple):
     scale: float
     left: float = 0.0
     mirrored: bool = False
+    hanging: tuple[bool, ...] = ()
 
 
 def table_strips(table: Table, width: float) -> Iterator[Strip]:
@@ -100,11 +103,13 @@ def _grid(table: Table, width: float) -> _Grid:
     mirrored = from_right() and not table.of_numbers
     if mirrored:
         lefts = [used - begin - each for begin, each in zip(lefts, widths, strict=True)]
-    return _Grid(tuple(left + begin for begin in lefts), tuple(widths), used, scale, left, mirrored)
+    hanging = tuple(map(table.hanging, range(len(widths))))
+    return _Grid(tuple(left + begin for begin in lefts), tuple(widths), used, scale, left, mirrored, hanging)
 
 
 def _natural(index: int, column: Column, table: Table) -> float:
-    cells = (_cell_width(row[index]) for row in table.rows)
+    room = text_width(_MARK, faces.CELL) if table.hanging(index) else 0.0
+    cells = (_cell_width(row[index]) + (0.0 if is_marked(row[index]) else room) for row in table.rows)
     return max(text_width(column.head, faces.HEAD), *cells, 4.0) + 0.5
 
 
@@ -145,6 +150,11 @@ def _row(
     """One row on a common baseline; `rules` are the thicknesses of the lines above and below it."""
     made = [_cell(cell, face, width, grid.scale) for cell, width in zip(cells, grid.widths, strict=True)]
     air = 2.0 if face is faces.CELL else 3.0
+    mark = grid.scale * text_width(_MARK, face) if face is faces.CELL else 0.0
+    shifts = [
+        _shift(column.align, width - cell.width, mark if bare and not is_marked(words) else 0.0, mirrored=grid.mirrored)
+        for words, cell, column, width, bare in zip(cells, made, columns, grid.widths, grid.hanging, strict=True)
+    ]
     ascent = max(cell.ascent for cell in made)
     height = air + max(ascent + max(cell.descent for cell in made), face.leading * grid.scale)
 
@@ -152,12 +162,15 @@ def _row(
         for thickness, at in ((rules[0], y), (rules[1], y + height)):
             if thickness:
                 _line(painter, x + grid.left, at, grid.width, thickness)
-        for cell, column, left, width in zip(made, columns, grid.lefts, grid.widths, strict=True):
-            free = width - cell.width
-            shift = {"left": free if grid.mirrored else 0.0, "center": 0.5 * free, "right": free}[column.align]
+        for cell, left, shift in zip(made, grid.lefts, shifts, strict=True):
             _draw_cell(cell, painter, x + left + shift, y + 0.5 * air + ascent)
 
     return Strip(height, draw)
+
+
+def _shift(align: Align, free: float, mark: float, *, mirrored: bool) -> float:
+    """How far from the left of its column a cell begins, with so much free space beside it, or left for a mark."""
+    return {"left": free if mirrored else 0.0, "center": 0.5 * free, "right": free - mark}[align]
 
 
 def _cell(words: Words, face: Face, width: float, scale: float) -> Text | Set:

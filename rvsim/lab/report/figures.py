@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rvsim.lab.report.values import ASSUMED, Words
 from rvsim.lab.sentences import Units
 from rvsim.language import left_to_right, tr, tr_later, trn
 from rvsim.robot import Robot
@@ -16,7 +17,7 @@ from rvsim.robot.arrays import FloatArray
 from rvsim.units import degrees_from_radians, millimetres_from_metres
 
 MINUS, DASH = "\u2212", "–"
-ASSUMED = "†"  # behind a number that no source gives
+Row = tuple[Words, ...]
 _TYPED_MINUS = re.compile(r"(?:(?<=\s)|(?<=\u2066))-(?=\s?(?:\d|[qxyz]\d?\b))|(?<=\()-(?=\d)|^-(?=\d)")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -100,6 +101,24 @@ def number(value: float, decimals: int) -> str:
     if math.isinf(value):
         return "∞" if value > 0 else f"{MINUS}∞"
     return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
+
+
+_NUMBER = re.compile(rf"({MINUS}?\d+)(?:\.(\d+))?((?: {ASSUMED})?)")
+
+
+def lined_up(rows: Sequence[Row]) -> tuple[Row, ...]:
+    """Rows of a table whose points stand below each other: each column's numbers have the decimals of its longest."""
+    columns = [_with_decimals(column) for column in zip(*rows, strict=True)]
+    return tuple(zip(*columns, strict=True))
+
+
+def _with_decimals(column: Row) -> Row:
+    found = [_NUMBER.fullmatch(cell) if isinstance(cell, str) else None for cell in column]
+    most = max((len(match[2] or "") for match in found if match), default=0)
+    return tuple(
+        f"{match[1]}.{(match[2] or '').ljust(most, '0')}{match[3]}" if match and most else cell
+        for cell, match in zip(column, found, strict=True)
+    )
 
 
 def with_minus(text: str) -> str:

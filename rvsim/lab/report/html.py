@@ -11,7 +11,6 @@ from rvsim.lab.report.chart_svg import chart_svg
 from rvsim.lab.report.html_style import STYLE
 from rvsim.lab.report.values import (
     Block,
-    Column,
     Document,
     Figure,
     Formula,
@@ -24,6 +23,7 @@ from rvsim.lab.report.values import (
     Subheading,
     Table,
     Words,
+    is_marked,
     runs,
     unbroken,
 )
@@ -145,7 +145,7 @@ def _table(block: Table, artist: Artist) -> str:
     head = "".join(f'<th class="{column.align}">{_words(column.head, artist)}</th>' for column in block.columns)
     first_total = len(block.rows) - block.totals
     rows = "".join(
-        f"<tr{_TOTAL if number == first_total else ''}>{_cells(row, block.columns, artist)}</tr>\n"
+        f"<tr{_TOTAL if number == first_total else ''}>{_cells(row, block, artist)}</tr>\n"
         for number, row in enumerate(block.rows)
     )
     note = f'<p class="note">{escape(block.note)}</p>\n' if block.note else ""
@@ -160,14 +160,17 @@ def _direction(block: Table) -> str:
     return ' dir="ltr"' if block.of_numbers and language().right_to_left else ""
 
 
-def _cells(row: tuple[Words, ...], columns: tuple[Column, ...], artist: Artist) -> str:
+def _cells(row: tuple[Words, ...], block: Table, artist: Artist) -> str:
     return "".join(
-        f'<td class="{_class(column)}">{_words(cell, artist)}</td>' for cell, column in zip(row, columns, strict=True)
+        f'<td class="{_class(block, number, cell)}">{_words(cell, artist)}</td>' for number, cell in enumerate(row)
     )
 
 
-def _class(column: Column) -> str:
-    return f"{column.align} wide" if column.wide else column.align
+def _class(block: Table, number: int, cell: Words) -> str:
+    """How a cell stands; "bare" is a number that leaves room for the mark that others of its column have."""
+    column = block.columns[number]
+    bare = block.hanging(number) and not is_marked(cell)
+    return f"{column.align}{' wide' * column.wide}{' bare' * bare}"
 
 
 def _caption(caption: str) -> str:

@@ -35,6 +35,7 @@ table { border-collapse: collapse; min-width: 60%; border-top: 1.6px solid #1d27
 th { font-size: 13px; font-weight: 600; border-bottom: .8px solid #1d2733; }
 th, td { padding: 4px 7px; white-space: nowrap; vertical-align: baseline; }
 td.wide { white-space: normal; }
+td.bare { padding-right: calc(7px + .75em); }
 tr.total td { border-top: .8px solid #1d2733; }
 .left { text-align: start; } .right { text-align: right; } .center { text-align: center; }
 .good { color: #00664b; } .warning { color: #8a4b00; } .bad { color: #b3261e; font-weight: 600; }

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from rvsim.lab.findings import SYMBOLS, WORDS, finding_sentence, summary_sentence
 from rvsim.lab.report.chart import Chart, Curve
-from rvsim.lab.report.figures import ASSUMED, DASH, Measures, number, scientific
+from rvsim.lab.report.figures import DASH, Measures, lined_up, number, scientific
 from rvsim.lab.report.path_words import path_formulas, path_words
 from rvsim.lab.report.pictures import path_picture
 from rvsim.lab.report.section_motion import between
 from rvsim.lab.report.section_robot import unit_columns
 from rvsim.lab.report.study import Study
-from rvsim.lab.report.values import Block, Column, Figure, Items, Paragraph, Run, Section, Table, Words
+from rvsim.lab.report.values import ASSUMED, Block, Column, Figure, Items, Paragraph, Run, Section, Table, Words
 from rvsim.lab.sentences import advice_sentence, tracking_sentence
 from rvsim.language import tr, tr_later, trn
 from rvsim.motion import Tracking
@@ -165,7 +165,7 @@ def _peaks(report: Report, measures: Measures) -> Iterator[Block]:
         Column(measures.head("max |q̈|", "/s²")), Column(tr("limit")), Column(tr("share")),
     )  # fmt: skip
     pairs = zip(report.speeds, report.accelerations, strict=True)
-    rows = tuple(_peak_row(index, speed, rate, report, measures) for index, (speed, rate) in enumerate(pairs))
+    rows = lined_up([_peak_row(index, speed, rate, report, measures) for index, (speed, rate) in enumerate(pairs)])
     assumed = any(peak.limit is not None and peak.limit.assumed for peak in (*report.speeds, *report.accelerations))
     yield Table(
         tr("The most that the joints do on the way."),

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from rvsim.lab.report.figures import (
-    ASSUMED,
     DASH,
     Measure,
     Measures,
+    lined_up,
     number_word,
     subscript,
     transform_latex,
@@ -19,7 +19,7 @@ from rvsim.lab.report.figures import (
 from rvsim.lab.report.pictures import floor_distance, robot_picture
 from rvsim.lab.report.servo_table import servo_tables
 from rvsim.lab.report.study import Study
-from rvsim.lab.report.values import Block, Column, Figure, Formula, Items, Paragraph, Section, Table, Words
+from rvsim.lab.report.values import ASSUMED, Block, Column, Figure, Formula, Items, Paragraph, Section, Table, Words
 from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Datum, Joint, Robot
 
@@ -155,7 +155,7 @@ def _limits_table(robot: Robot, measures: Measures) -> Table:
         Column(measures.head(tr("accel."), "/s²")),
         Column(tr("torque [N m]") if robot.is_revolute.all() else tr("torque [N m, N]")),
     )
-    rows = tuple(_limits_row(index, joint, measures) for index, joint in enumerate(robot.joints))
+    rows = lined_up([_limits_row(index, joint, measures) for index, joint in enumerate(robot.joints)])
     assumed = any(_marked(joint) for joint in robot.joints)
     notes = (
         *((tr("{assumed} assumed: no source gives it.", assumed=ASSUMED),) if assumed else ()),

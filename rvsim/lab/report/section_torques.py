@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from rvsim.dynamics import STANDARD_GRAVITY, gravity_torques, joint_torques, payload_wrench
-from rvsim.lab.report.figures import ASSUMED, DASH, number, table_latex
+from rvsim.lab.report.figures import DASH, lined_up, number, table_latex
 from rvsim.lab.report.study import Study
-from rvsim.lab.report.values import Block, Column, Formula, Paragraph, Section, Table, Words
+from rvsim.lab.report.values import ASSUMED, Block, Column, Formula, Paragraph, Section, Table, Words
 from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -97,7 +97,7 @@ def _table(study: Study, found: Torques) -> Table:
     together = (tr("together"),) if found.counted else ()
     heads = (tr("from F"), tr("own weight"), *together, tr("rated"), tr("share"))
     columns = (Column("i", "center"), Column(tr("Joint"), "left"), Column(tr("unit"), "center"), *map(Column, heads))
-    rows = tuple(_row(robot, index, found) for index in range(robot.dof))
+    rows = lined_up([_row(robot, index, found) for index in range(robot.dof)])
     return Table(tr("Torques of the joints at rest."), columns, rows, " ".join(_notes(robot, found)))
 
 

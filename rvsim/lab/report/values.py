@@ -14,6 +14,7 @@ from rvsim.language import tr
 from rvsim.scene import Camera, Scene
 
 Style = Literal["", "bold", "math", "code", "good", "warning", "bad", "muted", "index"]
+ASSUMED = "†"  # behind a number that no source gives
 Role = Literal["body", "note", "lead", "own"]
 Align = Literal["left", "right", "center"]
 
@@ -56,6 +57,11 @@ def unbroken(text: str) -> str:
 def plain(words: Words) -> str:
     """Its letters alone."""
     return "".join(run.text for run in runs(words))
+
+
+def is_marked(words: Words) -> bool:
+    """Whether it is a number that no source gives."""
+    return plain(words).endswith(ASSUMED)
 
 
 @dataclass(frozen=True)
@@ -135,6 +141,10 @@ class Table:
     def of_numbers(self) -> bool:
         """Whether most of its columns are numbers: those stand from left to right in every language."""
         return 2 * sum(column.align == "right" for column in self.columns) > len(self.columns)
+
+    def hanging(self, column: int) -> bool:
+        """Whether numbers of a column have a mark behind them, for which the others have to leave room."""
+        return self.columns[column].align == "right" and any(is_marked(row[column]) for row in self.rows)
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,9 +19,10 @@ from rvsim.lab.repairs import motion_of, path_of
 from rvsim.lab.report import PARTS, Cover, Document, Study, build, html_page, parts_of, title_of
 from rvsim.lab.report.chart import Chart, Curve, Limit, axis, thinned
 from rvsim.lab.report.chart_svg import chart_svg
-from rvsim.lab.report.figures import Measures, with_minus
+from rvsim.lab.report.figures import Measures, lined_up, with_minus
 from rvsim.lab.report.section_motion import between
 from rvsim.lab.report.values import (
+    Column,
     Figure,
     Formula,
     Formulas,
@@ -152,6 +153,13 @@ def test_numbers_keep_their_units_and_comparisons_their_sides() -> None:
     assert unbroken("x = (1, 2)") == "x = (1, 2)"
     assert unbroken("62 % of 5 mm and 3 more, w ≥ 0") == "62\u00a0% of 5\u00a0mm and 3 more, w\u00a0≥\u00a00"
     assert with_minus("q1 - q4, -x and a - b") == "q1 − q4, −x and a - b"
+
+
+def test_the_points_of_a_column_stand_below_each_other_and_marks_beside_it() -> None:
+    rows = lined_up([("1", "0.94 †", "18 %"), ("2", "−11", "4 of 5"), ("3", "–", "")])
+    assert rows == (("1", "0.94 †", "18 %"), ("2", "−11.00", "4 of 5"), ("3", "–", ""))
+    table = Table("", (Column("i", "center"), Column("limit"), Column("share")), rows)
+    assert [table.hanging(column) for column in range(3)] == [False, True, False]
 
 
 def test_a_small_deviation_in_units_that_nobody_knows_is_no_zero() -> None:
