@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
     from rvsim.gui.main_window import MainWindow
 
+_CANCEL = {"de": "Abbrechen", "ar": "إلغاء", "en": "Cancel"}  # a word of Qt's dialogs that rvsim says too
+
 
 class Screen:
     """The checks of one screen, in the order in which they are made."""
@@ -38,6 +40,7 @@ class Screen:
             "painter": self.painter,
             "OpenGL": self.opengl,
             "formulas and help": self.texts,
+            "languages": self.languages,
             "animation": self.animation,
             "report": self.report,
         }
@@ -124,6 +127,22 @@ class Screen:
         for font in resource("fonts").glob("*.[ot]tf"):
             expect(QFontDatabase.addApplicationFont(str(font)) >= 0, f"the font {font.name} cannot be used")
         return "a formula typeset, every help page and icon drawn"
+
+    def languages(self) -> str:
+        """Each with rvsim's words and Qt's own: a bundle brings those from another folder."""
+        from rvsim.gui.languages import wear_language
+        from rvsim.language import LANGUAGES, tr
+
+        if self._window is None:
+            raise SkippedError("there is no application")
+        try:
+            for code, cancel in _CANCEL.items():
+                wear_language(self._application, code)
+                found = self._application.translate("QPlatformTheme", "Cancel")
+                expect(found == tr("Cancel") == cancel, f"in {LANGUAGES[code].name} “Cancel” is “{found}”")
+        finally:
+            wear_language(self._application, "en")
+        return ", ".join(LANGUAGES[code].name for code in _CANCEL)
 
     def animation(self) -> str:
         """Painted by Qt, written and read back by Pillow."""

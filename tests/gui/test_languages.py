@@ -7,9 +7,10 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
-from PySide6.QtCore import QModelIndex, QPoint, Qt
+from PySide6.QtCore import QModelIndex, QPoint, Qt, QTranslator
 from PySide6.QtGui import QAction, QUndoCommand, QUndoStack
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -32,7 +33,7 @@ from rvsim.gui.languages import wear_language
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.robot_library import RobotLibrary
 from rvsim.gui.undo_words import UndoWords
-from rvsim.language import LANGUAGES, Catalogue, has_right_to_left, tr
+from rvsim.language import LANGUAGES, Catalogue, catalogue_file, has_right_to_left, tr
 
 
 @pytest.fixture(autouse=True)
@@ -91,6 +92,19 @@ def test_file_dialogs_speak_arabic_in_the_words_of_the_window(qapp: QApplication
     assert qapp.translate("QPlatformTheme", "Close") == tr("Close")
     wear_language(qapp, "en")
     assert qapp.translate("QPlatformTheme", "Close") == "Close"
+
+
+def test_the_words_for_qt_are_those_of_their_source(qapp: QApplication) -> None:
+    source = catalogue_file("ar").with_name("qt_ar.ts")
+    words = QTranslator()
+    assert words.load(str(source.with_suffix(".qm")))
+    wanted = [
+        (context.findtext("name"), one.findtext("source"), one.findtext("translation"))
+        for context in ElementTree.parse(source).iter("context")
+        for one in context.iter("message")
+    ]
+    said = [(context, text, words.translate(context, text)) for context, text, _ in wanted]
+    assert said == wanted, "pyside6-lrelease qt_ar.ts makes the other file anew"
 
 
 def test_undo_says_what_in_a_window_that_takes_over_steps(qtbot: QtBot) -> None:

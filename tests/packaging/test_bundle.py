@@ -53,6 +53,7 @@ def test_what_is_imported_by_name_alone_is_there_to_be_put_in() -> None:
         ("PySide6/Qt/plugins/tls/libqopensslbackend.so", False),
         ("PySide6/Qt/translations/qtbase_ar.qm", True),
         ("PySide6/Qt/translations/qtbase_nn.qm", False),
+        ("rvsim/_resources/languages/qt_ar.qm", True),
         ("PySide6/Qt/lib/libQt6Gui.so.6", True),
         ("libQt6Network.so.6", False),
         ("numpy/linalg/_umath_linalg.cpython-311-x86_64-linux-gnu.so", True),
