@@ -46,7 +46,8 @@ def with_indices(text: str, style: Style = "") -> Runs:
     return tuple(Run(piece, "index" if number % 2 else style) for number, piece in enumerate(pieces) if piece)
 
 
-_BOUND = re.compile(r" (?=[=≥≤≈] [^(])|(?<=[=≥≤≈]) (?!\()|(?<=\d) (?=(?:%|[nµm]?m|[mµ]?s|k?g|N m|N|rad)(?!\w))")
+_UNITS = r"%|[nµm]?m|[mµ]?s|k?g|N|rad"
+_BOUND = re.compile(rf" (?=[=≥≤≈] [^(])|(?<=[=≥≤≈]) (?!\()|(?<=\d) (?=(?:{_UNITS})(?!\w))|(?<=\d N) (?=m(?!\w))")
 
 
 def unbroken(text: str) -> str:

@@ -150,7 +150,7 @@ def test_a_line_is_described_by_its_ends_and_the_summary_tells_the_deviation_bet
 
 
 def test_numbers_keep_their_units_and_comparisons_their_sides() -> None:
-    assert unbroken("x = (1, 2)") == "x = (1, 2)"
+    assert unbroken("x = (1 N m, 2)") == "x = (1\u00a0N\u00a0m, 2)"
     assert unbroken("62 % of 5 mm and 3 more, w ≥ 0") == "62\u00a0% of 5\u00a0mm and 3 more, w\u00a0≥\u00a00"
     assert with_minus("q1 - q4, -x and a - b") == "q1 − q4, −x and a - b"
 
