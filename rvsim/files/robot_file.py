@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -46,9 +47,14 @@ def load_robot(name_or_path: str | Path) -> Robot:
     name = name_or_path.strip().lower() if isinstance(name_or_path, str) else ""
     for folder, names in (("robots", robot_names()), ("examples", _EXAMPLES)):
         if name in names:
-            return _from_file(resource(folder, f"{name}.toml"))
+            return _built_in(folder, name)
     path = Path(name_or_path)
     return _from_file(path) if _exists(path) else _own_by_name(str(name_or_path))
+
+
+@cache  # all of an arm is frozen, and its file stays; each window has all of them, which takes a quarter of its start
+def _built_in(folder: str, name: str) -> Robot:
+    return _from_file(resource(folder, f"{name}.toml"))
 
 
 def _own_by_name(name: str) -> Robot:
