@@ -1,7 +1,5 @@
 """What a bundle starts: the same as `rvsim`."""
 
-import sys
+from rvsim.cli import run
 
-from rvsim.cli import main
-
-sys.exit(main())
+run()

@@ -1,7 +1,5 @@
 """`python -m rvsim`."""
 
-import sys
+from rvsim.cli import run
 
-from rvsim.cli import main
-
-sys.exit(main())
+run()

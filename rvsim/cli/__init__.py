@@ -10,18 +10,24 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Sequence
+from typing import NoReturn
 
 from rvsim import __version__
 from rvsim.cli import arm, arms, paths, report, self_test
 from rvsim.cli.arguments import Parser, joined_values, named_session, refuse_other_files
 from rvsim.cli.outcome import BAD_INPUT, DONE, FAILED, InputError
 from rvsim.cli.output import speak_any_encoding
-from rvsim.cli.window import add_window_options, open_window
+from rvsim.cli.window import add_window_options, leave, open_window
 from rvsim.errors import RvsimError
 
-__all__ = ["BAD_INPUT", "DONE", "FAILED", "InputError", "main"]
+__all__ = ["BAD_INPUT", "DONE", "FAILED", "InputError", "main", "run"]
 
 _COMMANDS = (*arms.COMMANDS, *paths.COMMANDS, *report.COMMANDS, *arm.COMMANDS, *self_test.COMMANDS)
+
+
+def run() -> NoReturn:
+    """Do what the command line says, and end the process with the exit status: what `rvsim` starts."""
+    leave(main())
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 import re
 import sys
+from contextlib import suppress
+from typing import NoReturn
 
 from rvsim.cli.arguments import output_file
 from rvsim.cli.outcome import InputError
@@ -58,6 +61,22 @@ def open_window(options: argparse.Namespace) -> int:
     from rvsim.gui.app import main as show_window
 
     return show_window(options)
+
+
+def leave(status: int) -> NoReturn:
+    """End the process with that exit status, without destroying a window that was open.
+
+    Python would free its thousands of parts in no order, and Qt for Python 6.11 stumbles over that now and then: a
+    program that crashes when all is saved and closed.
+    """
+    if "PySide6.QtWidgets" not in sys.modules:
+        sys.exit(status)
+    logging.shutdown()
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):  # nobody reads it any more
+            if stream is not None:
+                stream.flush()
+    os._exit(status)
 
 
 def _require_display(options: argparse.Namespace) -> None:

@@ -60,6 +60,15 @@ def button(object_name: str, text: str, tip: str, slot: Callable[[], object], *,
     return made
 
 
+def silence(widget: QWidget) -> None:
+    """Let a widget that is taken out for good, and all in it, say nothing more.
+
+    A box that is hidden loses the focus, and would take what is half typed in it: for an arm that is there no more.
+    """
+    for part in (widget, *widget.findChildren(QWidget)):
+        part.blockSignals(True)
+
+
 def form() -> QFormLayout:
     """A form as all panels have it."""
     made = QFormLayout()

@@ -248,6 +248,12 @@ def test_a_terminal_without_the_signs_keeps_the_numbers() -> None:
     assert b"points 1-6: the elbow needs -156.7 deg ... -116.9 deg and stops at -110 deg;" in done.stdout
 
 
+def test_a_program_that_had_a_window_ends_at_once_and_its_words_arrive(tmp_path: Path) -> None:
+    program = [sys.executable, "-m", "rvsim", "--screenshot", str(tmp_path / "window.png")]
+    done = subprocess.run(program, capture_output=True, text=True, check=True, cwd=tmp_path)
+    assert (done.stdout, done.stderr) == (f"{tmp_path / 'window.png'}\n", "")
+
+
 def test_where_there_is_no_display_the_window_says_so(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "platform", "linux")
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):

@@ -146,7 +146,8 @@ def test_a_program_without_console_has_no_streams_and_works(tmp_path: Path) -> N
 import sys
 sys.stdin = sys.stdout = sys.stderr = None
 from rvsim.cli import main
-sys.exit(main(["--screenshot", {str(picture)!r}]) or 10 * main(["fk"]))
+from rvsim.cli.window import leave
+leave(main(["--screenshot", {str(picture)!r}]) or 10 * main(["fk"]))
 """
     ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert (ended.returncode, ended.stdout, ended.stderr) == (20, "", "")

@@ -219,7 +219,7 @@ class Life:
         QCoreApplication.processEvents()
         self.window.deleteLater()
         for widget in QApplication.topLevelWidgets():
-            if widget not in PARKED:
+            if not _is_parked(widget):
                 widget.close()
                 widget.deleteLater()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
@@ -255,6 +255,11 @@ class Life:
                 self.watch.find(f"threads that live on after the window was closed: {threads}")
                 return
             time.sleep(0.01)
+
+
+def _is_parked(widget: QWidget | None) -> bool:
+    """Whether it is a window in another language, or floats beside one: those rest to the end of the program."""
+    return widget is not None and (widget in PARKED or _is_parked(widget.parentWidget()))
 
 
 def _slipped(error: Exception) -> bool:

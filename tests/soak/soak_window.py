@@ -30,6 +30,7 @@ from monkey_world import World, temporary_world
 from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication
 
+from rvsim.cli.window import leave
 from rvsim.gui.app import make_application
 from rvsim.gui.languages import wear_language
 from rvsim.gui.preferences import Preferences
@@ -189,4 +190,4 @@ def _options() -> argparse.Namespace:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    leave(main())  # as the program does: windows in other languages rest to the end

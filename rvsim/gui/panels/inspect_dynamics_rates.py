@@ -11,7 +11,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, acceleration_kind, speed_kind
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import ElidedLabel
+from rvsim.gui.widgets import ElidedLabel, silence
 from rvsim.language import tr
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -46,6 +46,7 @@ class RateRows(QWidget):
         """A row for each joint of this arm, at rest."""
         while (item := self._grid.takeAt(0)) is not None:
             if (old := item.widget()) is not None:
+                silence(old)
                 old.hide()
                 old.deleteLater()
         for column, text in ((2, tr("velocity")), (3, tr("acceleration"))):

@@ -14,7 +14,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, display, format_number
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import THEMES
-from rvsim.gui.widgets import ElidedLabel
+from rvsim.gui.widgets import ElidedLabel, silence
 from rvsim.language import tr
 from rvsim.robot import Datum, Joint, Robot
 from rvsim.robot.arrays import FloatArray
@@ -125,6 +125,7 @@ class JointRows(QWidget):
         self._robot = robot
         for child in self.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly):
             self._grid.removeWidget(child)
+            silence(child)
             child.hide()
             child.deleteLater()
         self.boxes, self.bars = [], []

@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QSignalBlocker, QSize, Signal
+from PySide6.QtCore import QEvent, QSignalBlocker, QSize, QTimer, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
@@ -22,7 +22,7 @@ from rvsim.gui.panels.joint_row import IGNORE_HINT, JointRow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, joint_kind
 from rvsim.gui.session import Session
-from rvsim.gui.widgets import button, combo, scrolled
+from rvsim.gui.widgets import button, combo, scrolled, silence
 from rvsim.language import tr, tr_later, trn
 from rvsim.robot import Robot
 from rvsim.robot.arrays import FloatArray
@@ -33,6 +33,7 @@ _SERVO_HINTS = {  # by whether the servo narrows the lower limit, and the upper 
     (False, True): tr_later("Above that the servo of the connected arm does not reach."),
     (True, True): tr_later("The servo of the connected arm does not reach it."),
 }
+_WIDEST_LINE = 310  # [pixels] of what stands in one line below the joints
 _SHORTEST_NAME = 4  # letters of a pose's name that can be read at least
 
 
@@ -105,19 +106,16 @@ class JointsPanel(QWidget):
 
     def _lay_out(self) -> None:
         scroll = scrolled(self._joints)
-        buttons = QGridLayout()
-        buttons.setSpacing(6)
-        for column, each in enumerate((self.plot, self.home, self.zero, self.random)):
-            buttons.addWidget(each, 0, column)
+        self._lines = {
+            QGridLayout(): (self.plot, self.home, self.zero, self.random),
+            QGridLayout(): (self.poses, self.save_pose, self.forget_pose),
+        }
+        buttons, poses = self._lines
+        self.arrange()
         switches = QHBoxLayout()
         switches.addWidget(self.live)
         switches.addWidget(self.ignore)
         switches.addStretch(1)
-        poses = QHBoxLayout()
-        poses.setSpacing(6)
-        poses.addWidget(self.poses, 1)
-        poses.addWidget(self.save_pose)
-        poses.addWidget(self.forget_pose)
         below = QVBoxLayout()
         below.setContentsMargins(12, 4, 12, 8)
         below.setSpacing(8)
@@ -134,6 +132,24 @@ class JointsPanel(QWidget):
         whole.addWidget(scroll, 1)
         whole.addLayout(below)
 
+    def arrange(self) -> None:
+        """Put what stands below in two lines where its words, in large letters, would hold the panel wide."""
+        for grid, parts in self._lines.items():
+            grid.setSpacing(6)
+            count, needed = len(parts), sum(part.minimumSizeHint().width() for part in parts)
+            one_line = needed <= _WIDEST_LINE
+            grid.setColumnStretch(0, int(one_line and parts[0] is self.poses))
+            for index, part in enumerate(parts):
+                row, column = (0, index) if one_line else divmod(index + count % 2, 2)
+                first = not one_line and index < count % 2  # of an odd number, alone in its line
+                grid.addWidget(part, row, 0 if first else column, 1, 2 if first else 1)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Larger letters need more room."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            QTimer.singleShot(0, self, self.arrange)  # when the buttons have the font too
+
     def show_robots(self, titles: dict[str, str], current: str) -> None:
         """Offer these arms: name → title."""
         with QSignalBlocker(self.robots):
@@ -144,8 +160,7 @@ class JointsPanel(QWidget):
 
     def _make_rows(self) -> None:
         for row in self._rows:
-            for speaker in (row, row.box):  # half-typed numbers of the last arm must not move this one
-                speaker.blockSignals(True)
+            silence(row)
             self._joints_column.removeWidget(row)
             row.setParent(None)  # so that nobody who looks for a joint's box by name finds one of the last arm
             row.deleteLater()

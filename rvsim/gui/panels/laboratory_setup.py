@@ -14,7 +14,7 @@ from rvsim.gui.panels.number_row import NumberRow
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import length_kind
 from rvsim.gui.session import Session
-from rvsim.gui.widgets import button, combo, select
+from rvsim.gui.widgets import button, combo, select, silence
 from rvsim.kinematics.numeric import AS_IN_SOURCE_002
 from rvsim.lab.laboratory import target_of
 from rvsim.language import tr, tr_later
@@ -185,6 +185,7 @@ class StartChooser(Chooser):
         """Another arm: other sliders, and its home to start from."""
         self.number = _FIRST_START
         for joint in self.joints:
+            silence(joint)
             self._grid.removeWidget(joint)
             joint.deleteLater()
         robot = self._session.robot

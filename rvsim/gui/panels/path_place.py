@@ -17,7 +17,7 @@ from rvsim.gui.quantities import length_kind
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import button
+from rvsim.gui.widgets import button, silence
 from rvsim.lab.shape_paths import placed_task, placement_of
 from rvsim.language import tr
 
@@ -96,6 +96,7 @@ class PlaceRows(QWidget):
         if self.center is not None and self.center.property("kind") == kind:
             return
         if self.center is not None:
+            silence(self.center)
             self.center.setParent(None)
             self.center.deleteLater()
         self.center = NumberRow("path_center", ("x", "y", "z"), (kind,) * 3, self._preferences, tr("Path middle"))

@@ -16,7 +16,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, length_kind
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import button, combo, select
+from rvsim.gui.widgets import button, combo, select, silence
 from rvsim.kinematics import forward_kinematics
 from rvsim.lab.planes import PLANES, laid, plane_name, three_points, through_three, with_normal
 from rvsim.lab.shape_paths import is_flat, level_yaw, placed_task, placement_of
@@ -171,6 +171,7 @@ class PlaneRows(QWidget):
         if self._corners and self._unit == kind:
             return
         for corner in self._corners:
+            silence(corner)
             corner.setParent(None)
             corner.deleteLater()
         self._unit, self._points = kind, None

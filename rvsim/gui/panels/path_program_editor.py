@@ -18,7 +18,7 @@ from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import Kind, joint_kind, length_kind
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import button, combo, form, select
+from rvsim.gui.widgets import button, combo, form, select, silence
 from rvsim.kinematics import forward_kinematics
 from rvsim.language import tr, tr_later
 from rvsim.spatial import rpy_from_rotation
@@ -87,6 +87,7 @@ class MoveEditor(QWidget):
 
     def _rebuild(self) -> None:
         self._column.removeWidget(self._inside)
+        silence(self._inside)
         self._inside.hide()
         self._inside.deleteLater()
         self._inside, self._showers = QWidget(), []

@@ -15,7 +15,7 @@ from rvsim.gui.panels.path_shape_rows import ShapeEditor
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import button
+from rvsim.gui.widgets import button, silence
 from rvsim.lab.shape_paths import MOST_SAMPLES, SPIRAL_STAGES, formula_points
 from rvsim.language import tr
 from rvsim.robot import Robot
@@ -141,6 +141,7 @@ class FormulaRows(ShapeEditor):
         """As many rows as there are stages."""
         while len(self._rows) > count:
             last = self._rows.pop()
+            silence(last)
             last.hide()
             last.deleteLater()
         while len(self._rows) < count:

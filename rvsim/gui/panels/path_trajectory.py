@@ -27,7 +27,7 @@ from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.undo_words import trajectory_words
-from rvsim.gui.widgets import button, combo, form
+from rvsim.gui.widgets import button, combo, form, silence
 from rvsim.lab.named_paths import named_path, path_entry, path_names
 from rvsim.lab.shape_paths import SHAPES, is_shape, shape_of
 from rvsim.language import tr
@@ -147,6 +147,7 @@ class TrajectorySection(QGroupBox):
         if self._clicks is not None:
             self._clicks.switch(False)
         if self._editor is not None:
+            silence(self._editor)
             self._editor.setParent(None)
             self._editor.deleteLater()
             self._editor = None

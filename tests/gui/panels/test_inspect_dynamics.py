@@ -140,6 +140,20 @@ def test_another_arm_gets_its_own_rows(page_of):
     assert page.masses.rowCount() == 6
 
 
+def test_a_rate_that_is_half_typed_goes_with_its_arm(qtbot, preferences):
+    window = build_window(preferences, robot="ur5e", renderer="painter")
+    qtbot.addWidget(window)
+    window.docks.show_panel("dynamics")
+    with qtbot.waitExposed(window):
+        window.show()
+    box = window.findChild(QuantityBox, "qd_2")
+    box.setFocus()
+    box.selectAll()
+    qtbot.keyClicks(box, "100")
+    window.session.use_robot(window.library["rv-m1"])
+    assert not window.findChild(DynamicsPage).rates.values[0].any()
+
+
 def test_copies_hold_all_parts(page_of):
     page = page_of("rv-m1")
     page.copy.copy_as("NumPy")
