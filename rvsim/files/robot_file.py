@@ -47,14 +47,15 @@ def load_robot(name_or_path: str | Path) -> Robot:
     name = name_or_path.strip().lower() if isinstance(name_or_path, str) else ""
     for folder, names in (("robots", robot_names()), ("examples", _EXAMPLES)):
         if name in names:
-            return _built_in(folder, name)
+            path = resource(folder, f"{name}.toml")
+            return _built_in(read_bytes(path), path)
     path = Path(name_or_path)
-    return _from_file(path) if _exists(path) else _own_by_name(str(name_or_path))
+    return robot_from_bytes(read_bytes(path), path) if _exists(path) else _own_by_name(str(name_or_path))
 
 
-@cache  # all of an arm is frozen, and its file stays; each window has all of them, which takes a quarter of its start
-def _built_in(folder: str, name: str) -> Robot:
-    return _from_file(resource(folder, f"{name}.toml"))
+@cache  # all of an arm is frozen; each window has all of them, and to understand them took a quarter of its start
+def _built_in(data: bytes, path: Path) -> Robot:
+    return robot_from_bytes(data, path)
 
 
 def _own_by_name(name: str) -> Robot:
@@ -117,10 +118,6 @@ def _check_same(robot: Robot, reread: Robot) -> None:
 
 def _matrices(robot: Robot) -> list[FloatArray]:
     return [robot.T_base_0, *(tool.T_flange_tool for tool in robot.tools), *(link.inertia for link in robot.masses)]
-
-
-def _from_file(path: Path) -> Robot:
-    return robot_from_bytes(read_bytes(path), path)
 
 
 def _exists(path: Path) -> bool:
