@@ -61,12 +61,13 @@ def button(object_name: str, text: str, tip: str, slot: Callable[[], object], *,
 
 
 def silence(widget: QWidget) -> None:
-    """Let a widget that is taken out for good, and all in it, say nothing more.
+    """Let a widget that is taken out for good, and all in it, say nothing more, and be found by name no more.
 
     A box that is hidden loses the focus, and would take what is half typed in it: for an arm that is there no more.
     """
     for part in (widget, *widget.findChildren(QWidget)):
         part.blockSignals(True)
+        part.setObjectName("")
 
 
 def form() -> QFormLayout:
