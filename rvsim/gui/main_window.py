@@ -364,6 +364,7 @@ class MainWindow(QMainWindow):
         for button in self.joints.findChildren(QPushButton):
             button.ensurePolished()
             button.updateGeometry()
+        self.joints.arrange()
         layout = self.joints.layout()
         assert layout is not None
         layout.activate()

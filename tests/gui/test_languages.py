@@ -81,6 +81,20 @@ def test_in_arabic_help_opens_away_from_the_panels_and_points_stand_from_left_to
     window.close()
 
 
+def test_large_letters_of_the_language_with_the_longest_words_fit_a_small_screen(
+    qapp: QApplication, qtbot: QtBot
+) -> None:
+    wear_language(qapp, "de")
+    preferences = Preferences()
+    preferences.set("presentation", True)
+    window = build_window(preferences, robot="al5b")
+    qtbot.addWidget(window)
+    window.show()
+    assert window.minimumSizeHint().width() <= 1024
+    preferences.set("presentation", False)
+    window.close()
+
+
 def test_file_dialogs_speak_arabic_in_the_words_of_the_window(qapp: QApplication) -> None:
     wear_language(qapp, "ar")
     said = [

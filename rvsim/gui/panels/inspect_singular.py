@@ -34,7 +34,7 @@ from rvsim.gui.quantity_box import QuantityBox
 from rvsim.gui.session import Session
 from rvsim.gui.stage import Stage
 from rvsim.gui.theme import set_role
-from rvsim.gui.widgets import column_of, combo, scrolled
+from rvsim.gui.widgets import ElidedLabel, column_of, combo, scrolled
 from rvsim.kinematics import (
     LostMotion,
     Measures,
@@ -60,7 +60,7 @@ _THRESHOLD_TIP = tr_later(
     "Below this σ min / σ max the light says “close”. The ratio, and not σ min itself, because it does not grow with "
     "the arm: of all poses of a six-axis arm some one in eight is below 0.01."
 )
-_LEFT, _RIGHT = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight
+_ALL, _RIGHT = Qt.AlignmentFlag(0), Qt.AlignmentFlag.AlignRight  # of a cell
 _PARTS = {"linear": tr_later("moving (v)"), "angular": tr_later("turning (ω)")}
 _NO_FAMILY = tr_later("This arm has no singularity of its task: J keeps its rank everywhere.")
 _PLACE_ONLY = tr_later("Of its pose this arm has none: J keeps its rank everywhere. Its place alone can be singular:")
@@ -145,17 +145,18 @@ class SingularPage(InspectPage):
 
     def _table(self) -> QGridLayout:
         grid = QGridLayout()
-        grid.setHorizontalSpacing(14)
+        grid.setHorizontalSpacing(10)
         grid.setVerticalSpacing(2)
         grid.setColumnStretch(0, 1)
         for column, head in enumerate(self.heads, start=1):
             set_role(head, role="muted")
             grid.addWidget(head, 0, column, _RIGHT)
         for row, ((title, tip), cells) in enumerate(zip(MEASURES, self.cells, strict=True), start=1):
-            name = QLabel(tr(title))
+            name = ElidedLabel()
+            name.setText(tr(title))
             for column, label in enumerate((name, *cells)):
                 label.setToolTip(tr(tip))
-                grid.addWidget(label, row, column, _RIGHT if column else _LEFT)
+                grid.addWidget(label, row, column, _RIGHT if column else _ALL)
             cells[0].setObjectName(f"singular_measure_{row}")
         return grid
 

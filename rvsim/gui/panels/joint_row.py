@@ -6,7 +6,7 @@ import math
 
 from PySide6.QtCore import QEvent, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rvsim.gui.calm_boxes import Slider
 from rvsim.gui.panels.joint_box import JointBox
@@ -14,6 +14,7 @@ from rvsim.gui.panels.tables import text_metrics
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.quantities import display, format_number, joint_kind
 from rvsim.gui.theme import set_role
+from rvsim.gui.widgets import ElidedLabel
 from rvsim.language import tr, tr_later
 from rvsim.robot import Robot
 
@@ -70,10 +71,9 @@ class JointRow(QWidget):
         chip = QLabel()
         chip.setFixedSize(10, 10)
         chip.setStyleSheet(f"background: {color}; border-radius: 5px;")
-        name = QLabel(title)
+        name = ElidedLabel()
+        name.setText(title)
         name.setBuddy(self.box)
-        name.setMinimumWidth(0)
-        name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         for label in (self._lower, self._upper):
             set_role(label, role="muted")
         set_role(self._mark, level="error")

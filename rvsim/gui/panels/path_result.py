@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QGroupBox, QHBoxLayout, QLabel, QProgressBar
+from PySide6.QtWidgets import QGroupBox, QHBoxLayout, QLabel, QProgressBar, QSizePolicy
 
 from rvsim.gui.panels.path_points import PathPointsDialog
 from rvsim.gui.panels.path_repairs import RepairList
@@ -13,7 +13,7 @@ from rvsim.gui.quantities import shown_units
 from rvsim.gui.session import Session
 from rvsim.gui.theme import set_role
 from rvsim.gui.tracker import PathTracker
-from rvsim.gui.widgets import button, form
+from rvsim.gui.widgets import ElidedLabel, button, form
 from rvsim.lab.sentences import length_error, tracking_sentence
 from rvsim.language import tr, trn
 from rvsim.motion import Tracking
@@ -38,7 +38,10 @@ class ResultSection(QGroupBox):
         preferences.changed.connect(self._wear_units)
 
     def _make_labels(self) -> None:
-        self.reached, self.rms, self.largest, self.between, self.time = (QLabel() for _ in range(5))
+        self.reached, self.between = QLabel(), QLabel()
+        self.rms, self.largest, self.time = ElidedLabel(), ElidedLabel(), ElidedLabel()
+        for label in (self.rms, self.largest, self.time):  # a form gives one whose size is ignored no room
+            label.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.between.setObjectName("between_label")
         self.between.setToolTip(
             tr(
