@@ -315,6 +315,7 @@ class MainWindow(QMainWindow):
     def _on_preference(self, name: str) -> None:
         if name in ("theme", "presentation"):
             wear_theme(self.preferences)
+            self.dress_narrowest()
         if name == "show_plots":
             self.plots.setVisible(self.preferences["show_plots"])
             self.plots.give_room()

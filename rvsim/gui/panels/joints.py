@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QEvent, QSignalBlocker, QSize, QTimer, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
@@ -143,12 +143,6 @@ class JointsPanel(QWidget):
                 row, column = (0, index) if one_line else divmod(index + count % 2, 2)
                 first = not one_line and index < count % 2  # of an odd number, alone in its line
                 grid.addWidget(part, row, 0 if first else column, 1, 2 if first else 1)
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Larger letters need more room."""
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange:
-            QTimer.singleShot(0, self, self.arrange)  # when the buttons have the font too
 
     def show_robots(self, titles: dict[str, str], current: str) -> None:
         """Offer these arms: name → title."""
