@@ -72,7 +72,7 @@ def _leg(name: str, command: list[str], **variables: str) -> Outcome:
 
 def _off_screen(python: str, arguments: list[str], judges_coverage: bool) -> Outcome:
     workers = str(min(4, os.cpu_count() or 1))
-    command = [python, "-m", "pytest", "-m", "not opengl", "-n", workers]
+    command = [python, "-m", "pytest", "-m", "not opengl", "-n", workers, "--dist", "worksteal"]
     if not arguments:
         command += ["--cov", "--cov-report=" if not judges_coverage else "--cov-report=term"]
         command += [] if judges_coverage else ["--cov-fail-under=0"]
