@@ -1,8 +1,12 @@
-"""Python's rubbish is collected in the window's thread alone.
+"""Python's rubbish is collected in the window's thread alone, and what Python still knows of dead layout items too.
 
 Otherwise the interpreter collects in whichever thread is busy: a worker then destroys Qt objects of the window that
 only refer to each other any more, which Qt does not allow. It says "Timers cannot be started from another thread", or
 crashes.
+
+Where a layout with something in it is put into another, Qt for Python 6.11 makes a Python object for each item, kept
+as long as the outer layout, but is not told when Qt deletes the item. Whatever Qt makes at that address later, a
+menu's window for instance, was taken for the dead item: a wrong type, or the end of the program.
 """
 
 from __future__ import annotations
@@ -12,6 +16,8 @@ from functools import partial
 from typing import ClassVar
 
 from PySide6.QtCore import QObject, QTimer
+from PySide6.QtWidgets import QSpacerItem, QWidgetItem
+from shiboken6 import createdByPython, getAllValidWrappers, invalidate
 
 _EVERY_MS = 300
 
@@ -40,11 +46,19 @@ class RubbishCollector(QObject):
         due = [generation for generation, (count, most) in enumerate(counts) if count > most]
         if due:
             gc.collect(due[-1])
+        forget_layout_items()
 
     def end(self) -> None:
         """Give it back to the interpreter, once the last one ends: all other threads of the window have ended."""
         self._timer.stop()
         _give_back(id(self))
+
+
+def forget_layout_items() -> None:
+    """Let Python know nothing of items that Qt has made for layouts: nobody here ever asks for them."""
+    for known in getAllValidWrappers():
+        if type(known) in (QWidgetItem, QSpacerItem) and not createdByPython(known):
+            invalidate(known)
 
 
 def _give_back(which: int, *_: object) -> None:

@@ -7,7 +7,9 @@ import threading
 import weakref
 
 from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget, QWidgetItem
 from pytestqt.qtbot import QtBot
+from shiboken6 import getAllValidWrappers
 
 from rvsim.gui.collector import RubbishCollector
 
@@ -45,3 +47,16 @@ def test_it_is_given_back_when_the_last_window_closes() -> None:
     assert not gc.isenabled()
     second.end()
     assert gc.isenabled()
+
+
+def test_python_knows_nothing_of_items_that_qt_deletes_without_a_word(qtbot: QtBot) -> None:
+    outside, inner = QWidget(), QVBoxLayout()
+    qtbot.addWidget(outside)
+    inner.addWidget(QLabel())
+    QVBoxLayout(outside).addLayout(inner)
+    known = [one for one in getAllValidWrappers() if type(one) is QWidgetItem]
+    collector = RubbishCollector()
+    collector.collect()
+    collector.end()
+    assert known
+    assert not [one for one in getAllValidWrappers() if type(one) is QWidgetItem]

@@ -156,10 +156,10 @@ class WrappedRow(QWidget):
         for count in counts:
             row = QHBoxLayout()
             row.setSpacing(self._rows.spacing())
+            self._rows.addLayout(row)  # while it is empty: Python would keep items of what is in it (collector.py)
             for widget in rest[:count]:
                 row.addWidget(widget, widget.minimumSizeHint().width())
             del rest[:count]
-            self._rows.addLayout(row)
 
 
 def group_of(*widgets: QWidget, stretched: bool) -> QHBoxLayout:
