@@ -53,7 +53,7 @@ from rvsim.gui.theme import set_role, text_scale, wear_theme
 from rvsim.gui.tool_card import ToolCard
 from rvsim.gui.tracker import PathTracker
 from rvsim.gui.undo_words import UndoWords
-from rvsim.gui.widgets import ElidedLabel, column_of
+from rvsim.gui.widgets import ElidedLabel, clear_scenes, column_of
 from rvsim.language import again, language, tr, tr_later
 
 if TYPE_CHECKING:
@@ -279,6 +279,9 @@ class MainWindow(QMainWindow):
         """
         if event.type() == QEvent.Type.MouseButtonPress and isinstance(event, QMouseEvent):
             self._dragged |= self.isSeparator(event.position().toPoint())
+        if event.type() == QEvent.Type.DeferredDelete:
+            self.session.undo_stack.blockSignals(True)  # its end would be told as a change
+            clear_scenes(self)
         if not isinstance(event, QStatusTipEvent):
             return super().event(event)
         text, level = (event.tip(), "") if event.tip() else self._said

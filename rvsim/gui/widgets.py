@@ -9,6 +9,7 @@ from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
+    QGraphicsView,
     QLabel,
     QPushButton,
     QScrollArea,
@@ -68,6 +69,16 @@ def silence(widget: QWidget) -> None:
     for part in (widget, *widget.findChildren(QWidget)):
         part.blockSignals(True)
         part.setObjectName("")
+
+
+def clear_scenes(widget: QWidget) -> None:
+    """Empty the plots in a widget that is about to be destroyed, while all is whole.
+
+    A plot's layout and what lies in it are freed by Python and by Qt, each in its own order: Qt for Python 6.11 then
+    asks what is gone, and the program ends.
+    """
+    for view in widget.findChildren(QGraphicsView):
+        view.scene().clear()
 
 
 def form() -> QFormLayout:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, QRect, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPointF, QRect, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -26,6 +26,7 @@ from rvsim.gui.plots.catalogue import Band, Drawing, Line
 from rvsim.gui.plots.saving import plot_menu
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.theme import THEMES, Theme
+from rvsim.gui.widgets import clear_scenes
 from rvsim.language import left_to_right, tr
 from rvsim.robot.arrays import FloatArray
 
@@ -172,6 +173,12 @@ class TimePlot(QWidget):
                 self.plot.addItem(edge, ignoreBounds=True)
 
     # --- painting and hands ----------------------------------------------------------------------------------------
+
+    def event(self, event: QEvent) -> bool:
+        """Empty the plot before it is destroyed."""
+        if event.type() == QEvent.Type.DeferredDelete:
+            clear_scenes(self)
+        return super().event(event)
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """The curves, and the cursor over them."""
