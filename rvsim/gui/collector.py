@@ -13,9 +13,10 @@ from __future__ import annotations
 
 import gc
 from functools import partial
+from sys import getrefcount
 from typing import ClassVar
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QAbstractEventDispatcher, QObject, QTimer
 from PySide6.QtWidgets import QSpacerItem, QWidgetItem
 from shiboken6 import createdByPython, getAllValidWrappers, invalidate
 
@@ -39,6 +40,15 @@ class RubbishCollector(QObject):
         self._timer = QTimer(self, interval=_EVERY_MS)
         self._timer.timeout.connect(self.collect)
         self._timer.start()
+        self._items = 0
+        QAbstractEventDispatcher.instance().awake.connect(self._watch_items)
+
+    def _watch_items(self) -> None:
+        """At each turn of the event loop: it costs a look at how often their type is referred to."""
+        items = getrefcount(QWidgetItem) + getrefcount(QSpacerItem)
+        if items != self._items:
+            forget_layout_items()
+            self._items = getrefcount(QWidgetItem) + getrefcount(QSpacerItem)
 
     def collect(self) -> None:
         """Collect the oldest generation that is due, as the interpreter would."""

@@ -8,12 +8,8 @@ from PySide6.QtWidgets import QApplication
 from rvsim.gui.document_state import port_section, show_view, view_of
 from rvsim.gui.languages import system_language, wear_language
 from rvsim.gui.main_window import MainWindow
-from rvsim.gui.theme import prepare_theme, undress, wear_theme
+from rvsim.gui.theme import prepare_theme, wear_theme
 from rvsim.language import LANGUAGES, language, tr, tr_later
-
-# Windows in languages that are spoken no more, hidden and at rest. To destroy one, with its thousands of parts that
-# Python knows, has ended the program now and then (Qt for Python 6.11); nobody changes the language often.
-PARKED: list[MainWindow] = []
 
 _NO_LONGER = tr_later("The arm no longer follows: switch “Follow the window” on again under Device › Drive.")
 
@@ -42,7 +38,7 @@ class WindowKeeper(QObject):
         if code != language().code:
             followed = self.window.device.live
             old, self.window = self.window, _successor(self.window, code)
-            PARKED.append(old)
+            old.deleteLater()
             self._listen()
             self.window.session.say(tr("rvsim speaks {language} now.", language=LANGUAGES[code].name))
             if followed:  # an arm moves by itself only as long as somebody has just said so
@@ -57,7 +53,6 @@ def _successor(old: MainWindow, code: str) -> MainWindow:
     old.motion.pause()
     view, port, tracking = view_of(old), port_section(old).settings, old.session.tracking
     (geometry, layout), widths = old.window_layout(), old.dragged_widths
-    undress(old)
     mirrored = LANGUAGES[code].right_to_left != language().right_to_left
     wear_language(app, code)
     preferences = old.preferences.successor()

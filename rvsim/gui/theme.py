@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
 from PySide6.QtWidgets import QApplication, QWidget
 
@@ -183,18 +182,6 @@ def prepare_theme(preferences: Preferences) -> None:
     Widgets that are made now, and dressed together when all is in its place, take half the time.
     """
     _prepare(_application(), preferences["theme"], preferences["presentation"])
-
-
-def undress(window: QWidget) -> None:
-    """Take a window that is seen no more out of the dressing: each later theme would dress all its thousands of parts.
-
-    Qt dresses what is marked as polished, and tells of another style what has none of its own.
-    """
-    style = _application().style()
-    for widget in (window, *window.findChildren(QWidget)):
-        style.unpolish(widget)
-        widget.setAttribute(Qt.WidgetAttribute.WA_WState_Polished, False)
-        widget.setAttribute(Qt.WidgetAttribute.WA_SetStyle)
 
 
 def _application() -> QApplication:

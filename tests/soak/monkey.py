@@ -21,7 +21,7 @@ from PySide6.QtWidgets import QApplication, QMessageBox, QWidget
 
 from rvsim.gui.app import build_window
 from rvsim.gui.collector import RubbishCollector
-from rvsim.gui.language_switch import PARKED, WindowKeeper
+from rvsim.gui.language_switch import WindowKeeper
 from rvsim.gui.languages import wear_language
 from rvsim.gui.main_window import MainWindow
 from rvsim.gui.preferences import Preferences
@@ -219,9 +219,8 @@ class Life:
         QCoreApplication.processEvents()
         self.window.deleteLater()
         for widget in QApplication.topLevelWidgets():
-            if not _is_parked(widget):
-                widget.close()
-                widget.deleteLater()
+            widget.close()
+            widget.deleteLater()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
         QCoreApplication.processEvents()
         app = QApplication.instance()
@@ -255,11 +254,6 @@ class Life:
                 self.watch.find(f"threads that live on after the window was closed: {threads}")
                 return
             time.sleep(0.01)
-
-
-def _is_parked(widget: QWidget | None) -> bool:
-    """Whether it is a window in another language, or floats beside one: those rest to the end of the program."""
-    return widget is not None and (widget in PARKED or _is_parked(widget.parentWidget()))
 
 
 def _slipped(error: Exception) -> bool:

@@ -20,7 +20,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )  # fmt: skip
 
-from rvsim.gui.language_switch import PARKED
 from rvsim.gui.page_stack import PageStack
 
 _DESCRIPTION = Qt.ItemDataRole.AccessibleDescriptionRole
@@ -207,8 +206,6 @@ class Choices:
     def _trigger(self) -> Deed:
         found = [action for action in self._play.window.findChildren(QAction) if can_be_reached(action)]
         names = sorted({action.objectName() for action in found}.difference(FORBIDDEN))
-        if PARKED:  # each language leaves a window: one change in a process
-            names = [name for name in names if not name.startswith("action_language_")]
         return Deed("trigger", (self._dice.choice(names),)) if names else Deed("wait", (0.01,))
 
     def _page(self) -> Deed:

@@ -190,4 +190,4 @@ def _options() -> argparse.Namespace:
 
 
 if __name__ == "__main__":
-    leave(main())  # as the program does: windows in other languages rest to the end
+    leave(main())  # as the program does
