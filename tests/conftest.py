@@ -57,8 +57,14 @@ def _no_widgets_left() -> Iterator[None]:
     yield
     if "PySide6.QtWidgets" in sys.modules:
         from PySide6.QtCore import QCoreApplication, QEvent
+        from PySide6.QtGui import QUndoStack
         from PySide6.QtWidgets import QApplication
+        from shiboken6 import getAllValidWrappers
 
+        for stack in [known for known in getAllValidWrappers() if isinstance(known, QUndoStack)]:
+            blocked = stack.blockSignals(True)  # as rubbish they would be dangerous: see Session.end
+            stack.clear()
+            stack.blockSignals(blocked)
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
         app = QApplication.instance()
         if isinstance(app, QApplication) and app.styleSheet():

@@ -280,7 +280,7 @@ class MainWindow(QMainWindow):
         if event.type() == QEvent.Type.MouseButtonPress and isinstance(event, QMouseEvent):
             self._dragged |= self.isSeparator(event.position().toPoint())
         if event.type() == QEvent.Type.DeferredDelete:
-            self.session.undo_stack.blockSignals(True)  # its end would be told as a change
+            self.session.end()
             clear_scenes(self)
         if not isinstance(event, QStatusTipEvent):
             return super().event(event)

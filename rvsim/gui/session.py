@@ -187,6 +187,14 @@ class Session(QObject):
                     change.belong_to(new)
         return new
 
+    def end(self) -> None:
+        """Let the steps of undo go while all is whole, and tell nobody.
+
+        As rubbish they are freed by Python and by the stack, each in its own order, and the program ends.
+        """
+        self.undo_stack.blockSignals(True)
+        self.undo_stack.clear()
+
     def end_stroke(self) -> None:
         """A slider has been released, a box left: the next edit is a new one."""
         self._merge_stroke += 1
