@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QStackedWidget, QToolButton, QVBoxLayout, QWidget
 
@@ -49,31 +49,45 @@ class PageStack(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
-        column.addLayout(self._button_rows())
+        self._rows = QVBoxLayout()
+        self._rows.setContentsMargins(6, 6, 6, 2)
+        self._rows.setSpacing(_GAP)
+        self._counts: tuple[int, ...] = ()
+        column.addLayout(self._rows)
         column.addWidget(self.stack, 1)
+        for number, page in enumerate(self._pages):
+            self._button(number, page)
+        self._share_out()
         self._buttons.idClicked.connect(self._go)
         self._buttons.button(0).setChecked(True)
         self._tell()
 
-    def _button_rows(self) -> QVBoxLayout:
+    def changeEvent(self, event: QEvent) -> None:
+        """Other letters may need other rows."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
+            self._share_out()
+
+    def _share_out(self) -> None:
         """Rows of buttons alike in width where there is room; where there is not, each as wide as its own word."""
-        rows = QVBoxLayout()
-        rows.setContentsMargins(6, 6, 6, 2)
-        rows.setSpacing(_GAP)
-        made = [self._button(number, page) for number, page in enumerate(self._pages)]
+        made = self._buttons.buttons()
         counts = rows_of([each.minimumSizeHint().width() for each in made], _GAP, _WIDEST_ROW)
+        if counts == self._counts:
+            return
+        self._counts = counts
+        while (old := self._rows.takeAt(0)) is not None:
+            old.deleteLater() if isinstance(old, QHBoxLayout) else None
         for count in counts:
             row = QHBoxLayout()
             row.setSpacing(_GAP)
+            self._rows.addLayout(row)
             for each in made[:count]:
                 row.addWidget(each, 1)
             if count < max(counts):
                 row.addStretch(max(counts) - count)
             del made[:count]
-            rows.addLayout(row)
-        return rows
 
-    def _button(self, number: int, page: Page) -> QToolButton:
+    def _button(self, number: int, page: Page) -> None:
         made = _PageButton(self)
         made.setObjectName(f"{page.name}_page_button")
         made.setText(tr(page.title))
@@ -83,7 +97,6 @@ class PageStack(QWidget):
         made.setProperty("role", "page")
         made.setSizePolicy(made.sizePolicy().horizontalPolicy().Expanding, made.sizePolicy().verticalPolicy())
         self._buttons.addButton(made, number)
-        return made
 
     @property
     def pages(self) -> tuple[Page, ...]:

@@ -68,15 +68,18 @@ def test_in_arabic_help_opens_away_from_the_panels_and_points_stand_from_left_to
     window.close()
 
 
+@pytest.mark.parametrize("from_the_start", [True, False])
 def test_large_letters_of_the_language_with_the_longest_words_fit_a_small_screen(
-    qapp: QApplication, qtbot: QtBot
+    qapp: QApplication, qtbot: QtBot, from_the_start: bool
 ) -> None:
     wear_language(qapp, "de")
     preferences = Preferences()
-    preferences.set("presentation", True)
+    preferences.set("presentation", from_the_start)
     window = build_window(preferences, robot="al5b")
     qtbot.addWidget(window)
     window.show()
+    preferences.set("presentation", True)
+    qapp.processEvents()
     assert window.minimumSizeHint().width() <= 1024
     preferences.set("presentation", False)
     window.close()

@@ -58,6 +58,7 @@ class PortSection(QWidget):
         self._connected = self._lost = False
         self.port.currentIndexChanged.connect(lambda _: self._show_choice())
         for box in (self.port, self.baud, self.language):
+            box.setMinimumContentsLength(5)  # or large German letters need more than a small screen has
             box.currentIndexChanged.connect(lambda _: self.edited.emit())
         self.address.textChanged.connect(lambda _: self.edited.emit())
         self._lay_out()

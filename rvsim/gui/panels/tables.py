@@ -36,6 +36,7 @@ def plain_table(name: str, title: str, model: QAbstractItemModel, table: QTableV
     columns = table.horizontalHeader()
     columns.setMinimumSectionSize(24)
     columns.setHighlightSections(False)
+    columns.setTextElideMode(Qt.TextElideMode.ElideRight)
     columns.setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
     return table
 
