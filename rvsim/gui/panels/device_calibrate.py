@@ -226,6 +226,9 @@ class CalibratePage(InspectPage):
             self._show_picture()
 
     def _go_on_with(self, wizard: CalibrationWizard) -> None:
+        robot = self._session.robot
+        if not robot.servos or robot.joint_names != wizard.robot.joint_names:
+            return  # a sweep that was told to end had one more thing to say, of the arm before
         self._wizard, self._taken = wizard, False
         self.step.show_problem("")
         self._show_wizard()
@@ -269,6 +272,7 @@ class CalibratePage(InspectPage):
         self._answer(lambda wizard: wizard.mark(pulse))
 
     def _on_take(self) -> None:
+        self.catch_up()  # of the arm that is there, not of the one before
         wizard, before = self._wizard, self._basis
         if wizard is None:
             return

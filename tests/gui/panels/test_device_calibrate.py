@@ -371,8 +371,11 @@ def test_an_arm_without_servos_and_a_bridge_have_nothing_to_calibrate(student: S
     student.wait(lambda state: state.connected)
     assert "takes angles, not pulses" in student.text("calibrate_about")
     student.device.disconnect_device()
+    late = student.page._wizard
     student.device._session.use_robot(load_robot("ur5e"))
     assert "has no servos" in student.text("calibrate_about")
+    student.page.automatic.sweep.advanced.emit(late)
+    assert student.page._wizard is None, "a sweep that ends has one more thing to say, of the arm before"
 
 
 def test_potentiometers_inside_servos_are_not_taken_for_angles(student: Student) -> None:
