@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, Qt
@@ -18,6 +18,11 @@ class _NoWheel(QObject):
     def eventFilter(self, _watched: QObject, event: QEvent) -> bool:
         """Whether it is one of the wheel, which ends here."""
         return event.type() == QEvent.Type.Wheel
+
+
+def _tell(dock: QDockWidget, set_seen: Callable[[bool], object], shown: bool) -> None:
+    """Tell a panel whether it is seen: of a dock that begins to float Qt says that it goes, and no more."""
+    set_seen(dock.isVisible() if dock.isFloating() else shown)
 
 
 class PanelDocks:
@@ -60,7 +65,8 @@ class PanelDocks:
         dock.setWidget(panel)
         self._window.addDockWidget(area, dock)
         if hasattr(panel, "set_seen"):
-            dock.visibilityChanged.connect(panel.set_seen)
+            dock.visibilityChanged.connect(partial(_tell, dock, panel.set_seen))
+            dock.topLevelChanged.connect(partial(_tell, dock, panel.set_seen))
         return dock
 
     @property

@@ -19,6 +19,7 @@ from rvsim.gui.app import build_window
 from rvsim.gui.commands import SWITCHES
 from rvsim.gui.device_control import DeviceControl
 from rvsim.gui.main_window import MainWindow
+from rvsim.gui.panels.inspect_page import InspectPage
 from rvsim.gui.preferences import Preferences
 from rvsim.gui.text_dialog import TextDialog
 
@@ -105,6 +106,18 @@ def test_it_fits_screens_small_and_large(qtbot: QtBot, window: MainWindow, size:
     assert window.minimumSizeHint().width() <= 1024
     assert window.minimumSizeHint().height() <= 600
     assert window.scene_view.width() > 0.3 * size[0]
+
+
+def test_panels_that_float_are_seen_like_those_that_do_not(qtbot: QtBot, window: MainWindow) -> None:
+    with qtbot.waitExposed(window):
+        window.show()
+    for dock in ("inspect_dock", "device_dock"):
+        window.findChild(QDockWidget, dock).setFloating(True)
+    for name in ("velocity", "wire", "calibrate"):
+        window.docks.show_panel(name)
+    for name in ("inspect_velocity_page", "calibrate_page"):
+        page = window.findChild(InspectPage, name)
+        qtbot.waitUntil(lambda page=page: page.seen)
 
 
 def test_the_layout_is_remembered(qtbot: QtBot, tmp_path: Path) -> None:
