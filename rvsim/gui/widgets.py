@@ -79,6 +79,9 @@ def clear_scenes(widget: QWidget) -> None:
     """
     for view in widget.findChildren(QGraphicsView):
         view.scene().clear()
+        menu = getattr(getattr(view, "plotItem", None), "ctrlMenu", None)
+        if menu is not None:  # nobody's child, and never shown
+            menu.deleteLater()
 
 
 def form() -> QFormLayout:

@@ -63,7 +63,8 @@ class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
     clicked = Signal(float, float)
 
     def __init__(self, preferences: Preferences) -> None:
-        super().__init__(background=None, axisItems={side: _MinusAxis(side) for side in ("left", "bottom")})
+        axes = {side: _MinusAxis(side) for side in ("left", "bottom")}
+        super().__init__(background=None, axisItems=axes, enableMenu=False)
         self._preferences = preferences
         self._factor = 1.0
         self.setMouseTracking(True)
@@ -71,7 +72,6 @@ class SectionPlot(pg.PlotWidget):  # type: ignore[misc]
         self.setObjectName("workspace_map")
         self.setAccessibleName(tr("Section of the workspace"))
         self.setMouseEnabled(x=False, y=False)
-        self.setMenuEnabled(False)
         self.hideButtons()
         self.setAspectLocked(True)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)

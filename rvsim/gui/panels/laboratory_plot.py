@@ -29,12 +29,11 @@ class LogPlot(pg.PlotWidget):  # type: ignore[misc]
     """Curves by name over 0, 1, 2 …; the one that is lit stands out. Nothing in it is dragged or zoomed."""
 
     def __init__(self, looks: Mapping[str, CurveLook], titles: tuple[str, str], preferences: Preferences) -> None:
-        super().__init__(background=None)
+        super().__init__(background=None, enableMenu=False)
         self._looks, self._titles, self._preferences = looks, titles, preferences
         self._values: dict[str, FloatArray] = {}
         self._limit, self._lit = 0.0, ""
         self.setMouseEnabled(x=False, y=False)
-        self.setMenuEnabled(False)
         for part in (self, self.getPlotItem()):  # iterations run from left to right in every language
             part.setLayoutDirection(pg.QtCore.Qt.LayoutDirection.LeftToRight)
         self.hideButtons()

@@ -58,7 +58,7 @@ class TimePlot(QWidget):
         self._marks: tuple[float, ...] = ()
         # It is a brush: what it paints is kept. A child, so that it goes with this widget and never in another thread,
         # where the garbage of one without a parent could be collected.
-        self.plot = pg.PlotWidget(self, background=None)
+        self.plot = pg.PlotWidget(self, background=None, enableMenu=False)
         self.plot.hide()
         for part in (self.plot, self.plot.getPlotItem()):  # time runs from left to right in every language
             part.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
