@@ -93,7 +93,10 @@ def main(options: argparse.Namespace) -> int:
             keeper.window.document.open(Path(options.open))
         return save_screenshot(keeper.window, options)
     _begin(keeper.window, options.open)
-    return app.exec()
+    status = app.exec()
+    keeper.window.end()  # the system may end a program without closing its window
+    keeper.window.preferences.write()
+    return status
 
 
 def _begin(window: MainWindow, file: str | None) -> None:

@@ -248,13 +248,15 @@ class DeviceControl(QObject):
             self._session.move_to(self._state.commanded_q, tr("Show where the arm is"))
 
     def set_live(self, on: bool) -> None:
-        """Let the arm follow every pose that is shown; it goes there calmly first."""
+        """Let the arm follow every pose that is shown; it goes there calmly first. No longer: it stays where it is."""
         if on == self._live:
             return
         if on and not self._can_follow():
             self.live_changed.emit(False)
             return
         self._live = on
+        if not on and self._driver is not None and self._state is not None and self._state.phase == "streaming":
+            self._driver.hold()
         self.live_changed.emit(on)
 
     def run_motion(self) -> None:

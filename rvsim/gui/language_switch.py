@@ -37,6 +37,7 @@ class WindowKeeper(QObject):
         code = self.window.preferences["language"] or system_language()
         if code != language().code:
             followed = self.window.device.live
+            self.window.device.set_live(False)
             old, self.window = self.window, _successor(self.window, code)
             old.deleteLater()
             self._listen()

@@ -88,6 +88,11 @@ class Preferences(QObject):
         if self._store is not None:
             self._store.setValue(f"window/{key}", state)
 
+    def write(self) -> None:
+        """Have everything on the disk now: a program that ends at once does not wait for it."""
+        if self._store is not None:
+            self._store.sync()
+
     def _stored(self, name: str) -> Any:
         """The stored value if it is one that the setting may have; else the default: a broken file stops nobody."""
         default, choices = SETTINGS[name]

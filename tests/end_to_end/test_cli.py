@@ -254,6 +254,23 @@ def test_a_program_that_had_a_window_ends_at_once_and_its_words_arrive(tmp_path:
     assert (done.stdout, done.stderr) == (f"{tmp_path / 'window.png'}\n", "")
 
 
+def test_what_was_set_is_kept_when_the_system_ends_the_program(tmp_path: Path) -> None:
+    ends = """
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+from rvsim.cli import run
+from rvsim.gui import app
+def begin(window, file):
+    window.preferences.set("theme", "dark")
+    QTimer.singleShot(0, QApplication.quit)
+app._begin = begin
+run()
+"""
+    folder = {**os.environ, "RVSIM_USER_FOLDER": str(tmp_path), "QT_QPA_PLATFORM": "offscreen"}
+    subprocess.run([sys.executable, "-c", ends], check=True, env=folder)
+    assert "theme=dark" in (tmp_path / "settings.ini").read_text(encoding="utf-8")
+
+
 def test_where_there_is_no_display_the_window_says_so(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "platform", "linux")
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):

@@ -6,7 +6,7 @@ import gc
 import threading
 import weakref
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QCoreApplication, QObject
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget, QWidgetItem
 from pytestqt.qtbot import QtBot
 from shiboken6 import getAllValidWrappers
@@ -56,7 +56,7 @@ def test_python_knows_nothing_of_items_that_qt_deletes_without_a_word(qtbot: QtB
     QVBoxLayout(outside).addLayout(inner)
     known = [one for one in getAllValidWrappers() if type(one) is QWidgetItem]
     collector = RubbishCollector()
-    collector.collect()
+    QCoreApplication.processEvents()
     collector.end()
     assert known
     assert not [one for one in getAllValidWrappers() if type(one) is QWidgetItem]

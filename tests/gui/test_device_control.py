@@ -157,6 +157,20 @@ def test_an_arm_that_cannot_go_to_the_pose_is_not_followed_with(desk: Desk) -> N
     assert "arm and servos stop at" in desk.said[-1]
 
 
+def test_an_arm_that_follows_no_longer_stays_where_it_is(desk: Desk) -> None:
+    desk.connect()
+    desk.wake()
+    desk.device.set_live(True)
+    there = desk.session.q + np.array([0.8, 0.0, 0.0, 0.0, 0.0])
+    desk.session.move_to(there, "There")
+    desk.wait(lambda state: state.phase == "streaming")
+    desk.device.poll()
+    desk.device.set_live(False)
+    desk.wait(lambda state: state.phase == "ready")
+    assert desk.device.state is not None
+    assert abs(desk.device.state.commanded_q[0] - there[0]) > 0.1
+
+
 def test_a_stop_that_cannot_reach_the_arm_is_told(desk: Desk) -> None:
     desk.connect()
     arm = desk.device.virtual

@@ -263,8 +263,11 @@ class ArmDriver:
 
     def _exchange(self) -> None:
         self._write_urgent()
-        now = self.clock.now()  # before it listens: where this thread is held up after that, no answer is called late
+        now = self.clock.now()  # before it listens: what has come by then is not called late
         received = self._port.read(_MOST_READ)
+        if self.clock.now() - now > _TICK:  # held up meanwhile: of an old moment set-points would follow too closely
+            now = self.clock.now()
+            received += self._port.read(_MOST_READ)
         with self._lock:
             out = self._core.process(now - self._began, received)
             self._publish()
