@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from PySide6.QtCore import QByteArray, QObject, QTimer
 from PySide6.QtWidgets import QApplication
 
@@ -39,11 +41,20 @@ class WindowKeeper(QObject):
             followed = self.window.device.live
             self.window.device.set_live(False)
             old, self.window = self.window, _successor(self.window, code)
+            emptied = partial(_empty, [old, *old.findChildren(QObject)])
+            old.destroyed.connect(lambda: QTimer.singleShot(0, emptied))  # some have a last thing to do
             old.deleteLater()
             self._listen()
             self.window.session.say(tr("rvsim speaks {language} now.", language=LANGUAGES[code].name))
             if followed:  # an arm moves by itself only as long as somebody has just said so
                 self.window.session.warn(tr(_NO_LONGER))
+
+
+def _empty(parts: list[QObject]) -> None:
+    """Let go of what the Python side of a destroyed window holds: Qt for Python 6.11 keeps these objects for good."""
+    for part in parts:
+        getattr(part, "__dict__", {}).clear()
+    parts.clear()
 
 
 def _successor(old: MainWindow, code: str) -> MainWindow:
